@@ -234,8 +234,8 @@ Drawing drawingOf(const PlanningScene& scene, const double* state, const std::ve
     }
     const std::size_t end = drawing.vertices.size();
     const bool is_object = body >= links && body < links + scene.objects.size();
-    if (red.count(body) != 0 && !is_object)
-      drawing.colliding.push_back({begin, end});
+    if (begin != end && !is_object)
+      drawing.robot.push_back({begin, end, red.count(body) != 0});
     if (body < links)
       drawing.links_end = end;
     if (body < links || is_object)

@@ -56,6 +56,14 @@ struct Floor
   double radius = 0.0;                               ///< metres; 0: no floor
 };
 
+/// The vertices of a link or of an attached object.
+struct RobotPart
+{
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  bool collides = false;
+};
+
 /// Triangles, three corners each. In this order: links, objects, attached objects, contact points, floor.
 struct Drawing
 {
@@ -64,7 +72,7 @@ struct Drawing
   std::size_t objects_end = 0;
   std::size_t bodies_end = 0;
   std::size_t contacts_end = 0;
-  std::vector<std::array<std::size_t, 2>> colliding;  ///< begin and end of each link or attached object that collides
+  std::vector<RobotPart> robot;  ///< links and attached objects with shapes
   Floor floor;
 };
 

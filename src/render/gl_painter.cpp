@@ -260,8 +260,9 @@ void GlPainter::drawHiddenParts()
   drawHidden(kCollidingColor,
              [this]
              {
-               for (const auto& [begin, end] : drawing_.colliding)
-                 drawRange(begin, end);
+               for (const RobotPart& part : drawing_.robot)
+                 if (part.collides)
+                   drawRange(part.begin, part.end);
              });
   glDisable(GL_STENCIL_TEST);
 }
@@ -307,13 +308,13 @@ Pixels GlPainter::roles(const Camera& camera, int width, int height, double near
   aim(camera, width, height);
   glClearColor(0.0F, 0.0F, 0.0F, 1.0F);
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 1.0F, 0.0F, 1.0F, 1.0F);
-  for (const auto& [begin, end] : drawing_.colliding)
-    drawRange(begin, end);
-  // The colliding parts are drawn again, at the same depth, so their pixels keep their colour.
-  glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 1.0F, 0.0F, 0.0F, 1.0F);
-  drawRange(0, drawing_.links_end);
-  drawRange(drawing_.objects_end, drawing_.bodies_end);
+  for (std::size_t i = 0; i < drawing_.robot.size(); ++i)
+  {
+    const RobotPart& part = drawing_.robot[i];
+    const float number = static_cast<float>(1 + i % 255) / 255.0F;
+    glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, number, 0.0F, part.collides ? 1.0F : 0.0F, 1.0F);
+    drawRange(part.begin, part.end);
+  }
   glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 0.0F, 0.0F, 0.0F, 1.0F);
   drawRange(drawing_.links_end, drawing_.objects_end);
   glProgramUniform4f(fragment_stage_, LOCATION_FLAT_COLOR, 0.0F, 1.0F, 0.0F, 1.0F);

@@ -25,8 +25,8 @@ class GlPainter
   /// attached objects that an object of the world hides are drawn faintly too.
   Pixels picture(const Camera& camera, int width, int height, double near_surface);
 
-  /// A picture of the visible roles. The red channel shows the robot, the green channel its contact points, the blue
-  /// channel its links and attached objects that collide. All other pixels are black.
+  /// A picture of the visible roles. The red channel has 1 + i % 255 for part i of Drawing::robot, the green channel
+  /// shows the contact points, the blue channel the parts that collide. All other pixels are black.
   Pixels roles(const Camera& camera, int width, int height, double near_surface);
 
  private:

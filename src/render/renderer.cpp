@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <array>
 
 #include "gpu/gl_thread.h"
 #include "gpu_planning_scene/error.h"
@@ -51,13 +52,47 @@ double nearSurface(const PlanningScene& scene, const double* state)
   return kNearSurface * nearRobot(scene, state).diagonal().norm();
 }
 
-/// The number of pixels of a role. `channel`: as in GlPainter::roles.
-double countOf(const Pixels& pixels, std::size_t channel)
+/// The pixels of a view, see GlPainter::roles.
+struct Visible
 {
-  double count = 0.0;
-  for (std::size_t at = channel; at < pixels.size(); at += 4)
-    count += pixels[at] != 0 ? 1.0 : 0.0;
-  return count;
+  explicit Visible(const Pixels& pixels)
+  {
+    for (std::size_t at = 0; at < pixels.size(); at += 4)
+    {
+      parts[pixels[at]] += 1.0;
+      contacts += pixels[at + 1] != 0 ? 1.0 : 0.0;
+      colliding += pixels[at + 2] != 0 ? 1.0 : 0.0;
+    }
+  }
+  std::array<double, 256> parts{};  // of each part of the robot, from 1 on
+  double contacts = 0.0;
+  double colliding = 0.0;
+};
+
+/// The pixels in a view as a share of those in the view that shows most. 0 if no view shows any.
+template <typename Count>
+double shareOf(const std::vector<Visible>& views, std::size_t view, const Count& count)
+{
+  double most = 0.0;
+  for (const Visible& other : views)
+    most = std::max(most, count(other));
+  return most == 0.0 ? 0.0 : count(views[view]) / most;
+}
+
+/// The robot, its colliding parts and the contacts have equal weight, and so have the parts of the robot: a gripper is
+/// small, but it must be seen. A view that shows half of the contacts is good enough.
+double scoreOf(const std::vector<Visible>& views, std::size_t view)
+{
+  double parts = 0.0;
+  double visible_parts = 0.0;
+  for (std::size_t number = 1; number < views[view].parts.size(); ++number)
+  {
+    const auto pixels = [number](const Visible& one) { return one.parts[number]; };
+    parts += shareOf(views, view, pixels);
+    visible_parts += std::any_of(views.begin(), views.end(), [&](const Visible& one) { return pixels(one) > 0.0; });
+  }
+  return parts / std::max(1.0, visible_parts) + shareOf(views, view, [](const Visible& one) { return one.colliding; }) +
+         std::min(0.5, shareOf(views, view, [](const Visible& one) { return one.contacts; }));
 }
 }  // namespace
 
@@ -67,35 +102,22 @@ Camera clearestView(const PlanningScene& scene, const double* state, const std::
 {
   const std::vector<Camera> views = viewsOf(scene, state, up);
   const Drawing drawing = drawingOf(scene, state, colliding, contact_points, up);
-  std::vector<double> robot;
-  std::vector<double> contacts;
-  std::vector<double> colliding_parts;
+  std::vector<Visible> visible;
   GlThread thread(device);
   thread.run(
       [&]
       {
         GlPainter painter(drawing);
         for (const Camera& view : views)
-        {
-          const Pixels pixels = painter.roles(view, kTrialWidth, kTrialHeight, nearSurface(scene, state));
-          robot.push_back(countOf(pixels, 0));
-          contacts.push_back(countOf(pixels, 1));
-          colliding_parts.push_back(countOf(pixels, 2));
-        }
+          visible.emplace_back(painter.roles(view, kTrialWidth, kTrialHeight, nearSurface(scene, state)));
       });
-  // The robot, its colliding parts and the contacts have equal weight. Each is compared with the view that shows most
-  // of it. A view that shows half of the contacts is good enough.
-  const auto share = [](const std::vector<double>& pixels, std::size_t view)
-  { return pixels[view] / std::max(1.0, *std::max_element(pixels.begin(), pixels.end())); };
-  const auto score = [&](std::size_t view)
-  { return share(robot, view) + share(colliding_parts, view) + std::min(0.5, share(contacts, view)); };
   std::size_t best = 0;
-  double least = kPreference * score(0);
+  double least = kPreference * scoreOf(visible, 0);
   for (std::size_t view = 1; view < views.size(); ++view)
-    if (score(view) > least)
+    if (scoreOf(visible, view) > least)
     {
       best = view;
-      least = score(view);
+      least = scoreOf(visible, view);
     }
   return views[best];
 }

@@ -176,6 +176,29 @@ TEST(Render, TheClearestViewIsNotTheBackOfAShelf)
   EXPECT_GT(red_in(clearestView(scene, state.data(), {}, {}, up, "software")), 0.005);
 }
 
+/// In the first view, a large link hides a small one. The small one is a thousandth of the picture.
+TEST(Render, TheClearestViewShowsEachLink)
+{
+  const std::string urdf = R"(<robot name="r">
+  <link name="body"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
+  <link name="tool"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+  <joint name="j" type="fixed"><parent link="body"/><child link="tool"/><origin xyz="-0.45 0.4 0.55"/></joint>
+</robot>)";
+  PlanningScene scene(RobotModel::fromXml(urdf, "", {}));
+  WorldObject wall;  // in front of the tool, but not of the body
+  wall.id = "wall";
+  wall.pose.translation() = Eigen::Vector3d(0.1, 0.0, 0.8);
+  wall.shapes.push_back({Box{Eigen::Vector3d(0.02, 1.0, 0.6)}, Eigen::Isometry3d::Identity()});
+  scene.objects.push_back(wall);
+  const std::vector<double> state;
+  const Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  const std::vector<BodyPair> only_tool{{1, 1}};
+  const auto red_in = [&](const Camera& camera)
+  { return shareOf(render(scene, state.data(), only_tool, {}, camera, kWidth, kHeight, "software"), isRed); };
+  ASSERT_LT(red_in(viewsOf(scene, state.data(), up)[0]), 1e-4);
+  EXPECT_GT(red_in(clearestView(scene, state.data(), {}, {}, up, "software")), 1e-3);
+}
+
 TEST(Render, TheClearestViewShowsACollidingLinkThatAnAttachedObjectHidesFromTheFront)
 {
   PlanningScene scene = sliderAndWall();
