@@ -76,7 +76,7 @@ void addRender(py::module_& module)
              "bodies that collide red, contact points yellow.\n\nstate: shape (variables,), or the name of a state; "
              "None: the current state of "
              "the scene, or the default state of the robot. width, height: pixels. eye, target: of the camera, in the "
-             "planning frame; without an eye, the view shows most of the robot and of its contacts. up: the upward "
+             "planning frame; without an eye, the view shows most of each link and of the contacts. up: the upward "
              "direction. device: as in StateChecker, but not \"cpu\".\n\nReturns an array of shape (height, width, 3), "
              "uint8, red, green and blue, rows from the top. Raises Error if the size, the camera or the device cannot "
              "be used.\n\n    matplotlib.pyplot.imsave(\"scene.png\", gps.render(scene))");

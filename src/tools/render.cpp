@@ -33,7 +33,7 @@ std::vector<Option> options()
   all.push_back({"--random", "SEED",
                  "a random state instead, within the joints' limits; planar\nand floating joints stay where they are"});
   all.push_back({"--camera", "X,Y,Z[,X,Y,Z]",
-                 "camera position and target; default: the view that shows\nmost of the robot, of its colliding parts "
+                 "camera position and target; default: the view that shows\nmost of each link, of the colliding parts "
                  "and of the\ncontact points"});
   all.push_back({"--up", "X,Y,Z", "upward direction (default 0,0,1)"});
   all.push_back({"--size", "WxH", "pixels (default 960x720)"});
