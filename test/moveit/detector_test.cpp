@@ -31,8 +31,6 @@ using Eigen::Vector3d;
 using moveit::core::RobotModelPtr;
 using moveit::core::RobotState;
 
-const bool kReady = (useMoveItResources(), true);
-
 /// A closed cube as a mesh.
 shapes::ShapeConstPtr meshCube(double size)
 {
@@ -821,7 +819,7 @@ TEST_F(Detector, AnswersSeveralThreadsAtOnce)
 
 TEST(DetectorScene, ReplacesTheDetectorOfAPlanningScene)
 {
-  ASSERT_TRUE(kReady);
+  ASSERT_TRUE(kUsesMoveItResources);
   const auto shared = std::make_shared<planning_scene::PlanningScene>(moveit::core::loadTestingRobotModel("panda"));
   planning_scene::PlanningScene& scene = *shared;
   scene.setActiveCollisionDetector(CollisionDetectorAllocator::create(), true);

@@ -32,8 +32,6 @@ using Eigen::Isometry3d;
 using moveit::core::RobotModelPtr;
 using moveit::core::RobotState;
 
-const bool kReady = (useMoveItResources(), true);
-
 /// Whether one of many states of a motion collides, by MoveIt's FCL detector.
 bool hasCollidingSample(const CollisionEnv& fcl, const RobotState& from, const RobotState& to, int samples)
 {
@@ -256,7 +254,7 @@ Motions expectProofsToHold(const RobotModelPtr& robot, int motions, int objects,
 
 TEST(RandomMotions, OfPandaThatAreProvenFreeHaveNoStateThatCollidesForFcl)
 {
-  ASSERT_TRUE(kReady);
+  ASSERT_TRUE(kUsesMoveItResources);
   const Motions count = expectProofsToHold(moveit::core::loadTestingRobotModel("panda"), 150, 8, 0.7, 0.3, 11);
   EXPECT_GT(count.free, 40);
   EXPECT_GT(count.colliding, 20);

@@ -13,6 +13,9 @@ inline void useMoveItResources()
   setenv("ROS_PACKAGE_PATH", path.c_str(), 1);
 }
 
+/// Initialised before any test. A test that reads it calls useMoveItResources() in this way.
+inline const bool kUsesMoveItResources = (useMoveItResources(), true);
+
 /// Lets pluginlib find the plugins of this build without a sourced workspace: adds this package and MoveIt's to
 /// ROS_PACKAGE_PATH, and their libraries to CMAKE_PREFIX_PATH. `packages`: further folders of packages, each with a
 /// colon behind it.

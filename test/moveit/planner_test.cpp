@@ -33,7 +33,7 @@ using moveit_msgs::MoveItErrorCodes;
 using planning_interface::MotionPlanRequest;
 using planning_interface::MotionPlanResponse;
 
-const bool kReady = (useMoveItResources(), useBuiltPlugins(), true);
+const bool kReady = (useBuiltPlugins(), true);
 
 constexpr char kArm[] = "panda_arm";
 
