@@ -47,7 +47,7 @@ std::string bytesOf(const T& message)
   return bytes;
 }
 
-std::string differenceOf(const moveit_msgs::CollisionObject& a, const moveit_msgs::CollisionObject& b)
+std::string differenceOfObjects(const moveit_msgs::CollisionObject& a, const moveit_msgs::CollisionObject& b)
 {
   if (a.header.frame_id != b.header.frame_id)
     return "frame " + a.header.frame_id + " " + b.header.frame_id;
@@ -67,7 +67,8 @@ std::string differenceOf(const moveit_msgs::CollisionObject& a, const moveit_msg
   return "";
 }
 
-std::string differenceOf(const moveit_msgs::AttachedCollisionObject& a, const moveit_msgs::AttachedCollisionObject& b)
+std::string differenceOfAttached(const moveit_msgs::AttachedCollisionObject& a,
+                                 const moveit_msgs::AttachedCollisionObject& b)
 {
   if (a.link_name != b.link_name)
     return "link";
@@ -76,7 +77,7 @@ std::string differenceOf(const moveit_msgs::AttachedCollisionObject& a, const mo
     return "touch links";
   if (bytesOf(a.detach_posture.points) != bytesOf(b.detach_posture.points))
     return "detach_posture";
-  return differenceOf(a.object, b.object);
+  return differenceOfObjects(a.object, b.object);
 }
 
 template <class Item, class Name>
@@ -161,12 +162,11 @@ std::string differenceOf(const moveit_msgs::PlanningScene& a, const moveit_msgs:
     return "name " + a.name + " " + b.name;
   std::string text = differenceOfLists(
       "object", a.world.collision_objects, b.world.collision_objects, [](const auto& object) { return object.id; },
-      [](const auto& x, const auto& y) { return differenceOf(x, y); });
+      differenceOfObjects);
   if (text.empty())
     text = differenceOfLists(
         "attached object", a.robot_state.attached_collision_objects, b.robot_state.attached_collision_objects,
-        [](const auto& attached) { return attached.object.id; },
-        [](const auto& x, const auto& y) { return differenceOf(x, y); });
+        [](const auto& attached) { return attached.object.id; }, differenceOfAttached);
   if (text.empty() && allowedPairs(a.allowed_collision_matrix) != allowedPairs(b.allowed_collision_matrix))
     text = "allowed collision matrix";
   if (text.empty())
