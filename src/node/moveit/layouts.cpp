@@ -35,7 +35,7 @@ std::map<std::string, std::vector<std::string>> sectionsOf(const std::string& de
 /// Two names of one type get one name. Packages are left out: our messages have the names of MoveIt's.
 std::string plainType(const std::string& type)
 {
-  const std::string base = type.substr(type.find('/') + 1);
+  std::string base = type.substr(type.find('/') + 1);
   if (base.rfind("byte", 0) == 0)
     return "int8" + base.substr(4);
   if (base.rfind("char", 0) == 0)
@@ -45,9 +45,9 @@ std::string plainType(const std::string& type)
 
 bool isBuiltIn(const std::string& type)
 {
-  static const std::array<const char*, 14> kBuiltIn = {{"bool", "int8", "uint8", "int16", "uint16", "int32", "uint32",
-                                                        "int64", "uint64", "float32", "float64", "string", "time",
-                                                        "duration"}};
+  constexpr std::array<const char*, 14> kBuiltIn = {{"bool", "int8", "uint8", "int16", "uint16", "int32", "uint32",
+                                                     "int64", "uint64", "float32", "float64", "string", "time",
+                                                     "duration"}};
   return std::find(kBuiltIn.begin(), kBuiltIn.end(), type) != kBuiltIn.end();
 }
 

@@ -38,6 +38,9 @@ class MoveItNames
   /// Throws Error if another node has one of the services. All arguments must outlive this object.
   MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices& changes, const StateValidity& validity,
               const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t max_changes, std::size_t max_bytes);
+  ~MoveItNames() = default;
+  MoveItNames(const MoveItNames&) = delete;
+  MoveItNames& operator=(const MoveItNames&) = delete;
 
   void close();
   void stop();
