@@ -210,9 +210,11 @@ TEST_F(Planner, ChecksAnAttachedObjectAgainstItsOwnLinkAsMoveItDoes)
 TEST_F(Planner, AvoidsTheOccupiedCellsOfAnOctomap)
 {
   const auto octree = std::make_shared<octomap::OcTree>(0.05);
-  for (double z = 0.025; z < 1.6; z += 0.05)
-    for (double y = -0.075; y < 0.1; y += 0.05)
-      octree->updateNode(octomap::point3d(0.525F, static_cast<float>(y), static_cast<float>(z)), true);
+  for (int z = 0; z < 32; ++z)
+    for (int y = -2; y < 2; ++y)
+      octree->updateNode(
+          octomap::point3d(0.525F, 0.025F + 0.05F * static_cast<float>(y), 0.025F + 0.05F * static_cast<float>(z)),
+          true);
   scene_->processOctomapPtr(octree, Isometry3d::Identity());
   MotionPlanResponse response;
   ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(request(goal_), response));

@@ -173,6 +173,8 @@ class Following : public testing::Test
   }
 
   static moveit::core::RobotModelPtr model;
+
+ protected:
   MoveGroup group_{model, "/arm/move_group"};
   RandomChanges changes_{1};
   std::mt19937 random_;
