@@ -314,8 +314,7 @@ void addRobotModel(py::module_& module)
            "as the tool check_states. base: a state of shape (variables,), by default default_state(). Planar and "
            "floating joints, such as a virtual joint, have its values. moves_base: these joints get random values "
            "too; base must not be given then. out: an array of float64 in the order of C, of the shape of the result, "
-           "which "
-           "gets the states and is returned. Ctrl-C ends a long call.\n\n"
+           "which gets the states and is returned. Ctrl-C ends a long call.\n\n"
            "    states = robot.random_states(1000, seed=1)")
       .def("link_poses", &linkPoses, py::arg("states"),
            "Forward kinematics: the pose of each link in the planning frame, for each state.\n\nstates: shape "

@@ -79,8 +79,9 @@ double shareOf(const std::vector<Visible>& views, std::size_t view, const Count&
   return most == 0.0 ? 0.0 : count(views[view]) / most;
 }
 
-/// The robot, its colliding parts and the contacts have equal weight, and so have the parts of the robot: a gripper is
-/// small, but it must be seen. A view that shows half of the contacts is good enough.
+/// Compares a view with the others. The robot, its colliding parts and the contacts have equal weight. So have the
+/// parts of the robot, because a gripper is small, but must be seen. A view that shows half of the contacts is good
+/// enough.
 double scoreOf(const std::vector<Visible>& views, std::size_t view)
 {
   double parts = 0.0;
@@ -112,12 +113,12 @@ Camera clearestView(const PlanningScene& scene, const double* state, const std::
           visible.emplace_back(painter.roles(view, kTrialWidth, kTrialHeight, nearSurface(scene, state)));
       });
   std::size_t best = 0;
-  double least = kPreference * scoreOf(visible, 0);
+  double best_score = kPreference * scoreOf(visible, 0);
   for (std::size_t view = 1; view < views.size(); ++view)
-    if (scoreOf(visible, view) > least)
+    if (const double score = scoreOf(visible, view); score > best_score)
     {
       best = view;
-      least = scoreOf(visible, view);
+      best_score = score;
     }
   return views[best];
 }

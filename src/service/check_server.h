@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/batch_size.h"
 #include "gpu_planning_scene/motion_checker.h"
 #include "gpu_planning_scene/state_checker.h"
 #include "service/busy.h"
@@ -22,7 +23,8 @@ struct CheckServerOptions
   std::size_t max_waiting_requests = 64;     ///< in each queue
   std::size_t max_waiting_states = 4000000;  ///< in each queue; one request always fits
   std::size_t max_states = 1000000;          ///< in one request
-  std::size_t max_batch_states = 524288;  ///< most states that are checked at once, if they take at most half a second
+  std::size_t max_batch_states =
+      kLargestBatch;  ///< states that are checked at once; fewer if they take longer than 0.5 s
 };
 
 /// A request to check states or motions. States are rows of values for some of the robot's variables. The other

@@ -38,9 +38,9 @@ struct SamplingOptions
 struct GeneratedMatrix
 {
   std::vector<DisabledPair> disabled;  ///< sorted by link indices
-  /// Pairs of links that collide in the default state, but not in nearly every random state. So they can really
-  /// collide, and are checked; the Setup Assistant disables them.
-  std::vector<std::pair<int, int>> real_in_default_state;
+  /// Pairs of links that collide in the default state, but can be apart: they are not Default and must be checked.
+  /// MoveIt's Setup Assistant disables them.
+  std::vector<std::pair<int, int>> colliding_by_default;
   std::size_t remaining_pairs = 0;  ///< pairs of links with collision shapes that must be checked
 };
 

@@ -49,14 +49,13 @@ struct Checked
   std::size_t largest_batch = 0;
 };
 
-/// Checks all states, in batches that take at most about half a second, so that the progress is seen. Only within a
-/// batch, the device works on a part while the host prepares the next one.
+/// Checks all states, in batches that take at most about half a second, so that the progress is seen.
 Checked checkAll(StateChecker& checker, StateSource& source, const std::string& group)
 {
   Checked all;
   all.states.valid.reserve(source.count());
   all.states.colliding.reserve(source.count());
-  BatchSize batch({0.5, 16384, 1024, 524288});
+  BatchSize batch({0.5, 16384, 1024, kLargestBatch});
   ProgressBar progress("checking", source.count());
   while (all.states.valid.size() < source.count())
   {

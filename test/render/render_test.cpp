@@ -176,7 +176,7 @@ TEST(Render, TheClearestViewIsNotTheBackOfAShelf)
   EXPECT_GT(red_in(clearestView(scene, state.data(), {}, {}, up, "software")), 0.005);
 }
 
-/// In the first view, a large link hides a small one. The small one is a thousandth of the picture.
+/// In the first view, a wall hides a small link, but not the large one.
 TEST(Render, TheClearestViewShowsEachLink)
 {
   const std::string urdf = R"(<robot name="r">
@@ -185,7 +185,7 @@ TEST(Render, TheClearestViewShowsEachLink)
   <joint name="j" type="fixed"><parent link="body"/><child link="tool"/><origin xyz="-0.45 0.4 0.55"/></joint>
 </robot>)";
   PlanningScene scene(RobotModel::fromXml(urdf, "", {}));
-  WorldObject wall;  // in front of the tool, but not of the body
+  WorldObject wall;
   wall.id = "wall";
   wall.pose.translation() = Eigen::Vector3d(0.1, 0.0, 0.8);
   wall.shapes.push_back({Box{Eigen::Vector3d(0.02, 1.0, 0.6)}, Eigen::Isometry3d::Identity()});

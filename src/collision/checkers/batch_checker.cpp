@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "collision/batch_size.h"
 #include "collision/checkers/cpu_or_gpu.h"
 #include "collision/checkers/cpu_scene.h"
 #include "collision/gpu/gpu_checker.h"
@@ -22,7 +23,7 @@ namespace
 // A large batch is cut into slices. For each of them, CPU or GPU is chosen anew: the CPU becomes faster while proofs
 // are made. The slices are longer than those of CpuScene, because uploads overlap with the GPU's work only within a
 // slice. Batches with neighbourhoods are not cut.
-constexpr std::size_t kStatesPerChoice = std::size_t{1} << 19U;
+constexpr std::size_t kStatesPerChoice = kLargestBatch;
 }  // namespace
 
 struct BatchChecker::Impl

@@ -17,11 +17,9 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// A smaller part would not keep a GPU busy, unless fewer states fall to each device; a larger one would keep the caller
-// waiting for the slowest device.
-constexpr std::size_t kSmallestPart = 16'384;
-constexpr std::size_t kBusyPart = 65'536;
-constexpr std::size_t kLargestPart = 262'144;
+constexpr std::size_t kSmallestPart = 16'384;  // fewer states are not worth a second device
+constexpr std::size_t kBusyPart = 65'536;      // fewer states do not keep a GPU busy
+constexpr std::size_t kLargestPart = 262'144;  // more states would keep the caller waiting for the slowest device
 constexpr std::size_t kPartsPerDevice = 4;
 
 /// The result of `action`'s call: what it throws, or nothing.
@@ -144,7 +142,8 @@ struct DeviceGroup::Batch
   std::mutex mutex = {};
   std::vector<std::size_t> waiting = {};  // parts, the first one last
 
-  /// Cuts the batch into parts for a number of devices.
+  /// Cuts the batch into parts for a number of devices: several for each, but of at least kBusyPart states. A smaller
+  /// batch is one part for each device.
   void cut(std::size_t devices)
   {
     const std::size_t least = std::clamp((count + devices - 1) / devices, kSmallestPart, kBusyPart);

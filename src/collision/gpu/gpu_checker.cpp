@@ -134,15 +134,7 @@ std::string GpuChecker::fault() const
 void GpuChecker::selectPairs(std::shared_ptr<const CollisionProblem> problem)
 {
   requireUsableScene();
-  try
-  {
-    gl_.run([&] { pairs_->selectPairs(*problem); });
-  }
-  catch (const OutOfDeviceMemory& error)  // OpenGL is then in an undefined state
-  {
-    usable_ = false;
-    throw DeviceLost(error.what());
-  }
+  runOrLose([&] { gl_.run([&] { pairs_->selectPairs(*problem); }); });
   problem_ = std::move(problem);
   on_cpu_.reset();
 }
@@ -155,12 +147,7 @@ void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
   const bool tables = kinematics_ && kinematics_fault_.empty();
   try
   {
-    gl_.run([&] { pairs_->useProofs(*proofs, *problem_, tables); });
-  }
-  catch (const OutOfDeviceMemory& error)  // OpenGL is then in an undefined state
-  {
-    usable_ = false;
-    throw DeviceLost(error.what());
+    runOrLose([&] { gl_.run([&] { pairs_->useProofs(*proofs, *problem_, tables); }); });
   }
   catch (const DeviceLost&)
   {
@@ -177,6 +164,19 @@ void GpuChecker::prepareMargins()
 {
   requireUsableScene();
   gl_.run([&] { pairs_->prepareMargins(); });
+}
+
+void GpuChecker::runOrLose(const std::function<void()>& action)
+{
+  try
+  {
+    action();
+  }
+  catch (const OutOfDeviceMemory& error)  // OpenGL is then in an undefined state, through no fault of the caller
+  {
+    usable_ = false;
+    throw DeviceLost(error.what());
+  }
 }
 
 void GpuChecker::requireUsableScene() const
@@ -244,15 +244,7 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
       settled += part->count;
     }
   }
-  try
-  {
-    on_device.get();
-  }
-  catch (const OutOfDeviceMemory& error)  // OpenGL is then in an undefined state, through no fault of the caller
-  {
-    usable_ = false;
-    throw DeviceLost(error.what());
-  }
+  runOrLose([&] { on_device.get(); });
   if (settled != count)  // the others would stay free
     throw DeviceLost("the device has returned " + std::to_string(settled) + " of " + std::to_string(count) + " states");
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -73,6 +74,8 @@ class GpuChecker
   void release();
   void restore();
   void requireUsableScene() const;
+  /// Calls `action`, which waits for the device. If the device runs out of memory, its scene is lost: DeviceLost.
+  void runOrLose(const std::function<void()>& action);
   void apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot);
   void check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
              const Margins* margins, BatchResult& result);

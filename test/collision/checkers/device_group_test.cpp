@@ -1,5 +1,6 @@
 // Several devices answer like one, also if some of them are lost.
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -29,6 +30,7 @@ class LosableChecker : public CpuChecker
     if (left_-- == 0)
       throw DeviceLost("the test has switched it off");
     checked += count;
+    parts.push_back(count);
     return CpuChecker::check(states, count, group, around);
   }
 
@@ -40,6 +42,7 @@ class LosableChecker : public CpuChecker
   }
 
   std::size_t checked = 0;
+  std::vector<std::size_t> parts;             // the numbers of states of all checks
   std::uint64_t refused = ~std::uint64_t{0};  // revision of a scene that the device does not take
 
  private:
@@ -104,6 +107,23 @@ TEST_F(DeviceGroups, ShareTheStatesOfALargeBatch)
   for (const DecidedStates& stage : group->report().decided)
     decided += stage.states;
   EXPECT_EQ(decided, batches * kCount);
+}
+
+/// A small part takes a GPU nearly as long as a larger one.
+TEST_F(DeviceGroups, GetLargePartsButEachDeviceGetsOne)
+{
+  const auto partsOf = [this](std::size_t count)
+  {
+    const auto group = groupOf({-1, -1});
+    group->check(states_.data(), count);
+    std::vector<std::size_t> parts = checkers_[0]->parts;
+    parts.insert(parts.end(), checkers_[1]->parts.begin(), checkers_[1]->parts.end());
+    std::sort(parts.begin(), parts.end());
+    return parts;
+  };
+  EXPECT_EQ(partsOf(100'000), (std::vector<std::size_t>{50'000, 50'000}));
+  EXPECT_EQ(partsOf(40'001), (std::vector<std::size_t>{20'000, 20'001}));
+  EXPECT_EQ(partsOf(10'000), (std::vector<std::size_t>{10'000}));
 }
 
 TEST_F(DeviceGroups, LoseNoStateIfDevicesAreLost)

@@ -244,6 +244,29 @@ TEST_P(BatchLimits, ListsThatGrowWhileTheDeviceWorksChangeNoAnswer)
   }
 }
 
+/// Poses of which the source writes only a few at once.
+class FewPoses : public UploadedPoses
+{
+ public:
+  static constexpr std::size_t kMost = 70;
+  using UploadedPoses::UploadedPoses;
+  std::size_t maxStates() const override { return kMost; }
+};
+
+TEST_P(BatchLimits, APartHasNoMoreStatesThanTheSourceOfThePosesWrites)
+{
+  const EglContext context("auto");
+  GpuPairChecker checker(folder_.path(), GetParam(), kStates);
+  checker.setProblem(*problem_);
+  const UploadedPoses::LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses_[row]; };
+  FewPoses poses(*problem_, 1, link_poses);
+  Verdicts verdicts;
+  std::vector<std::size_t> parts;
+  checker.check(poses, kStates, verdicts, nullptr,
+                [&parts](std::size_t /*begin*/, std::size_t count) { parts.push_back(count); });
+  EXPECT_EQ(parts, (std::vector<std::size_t>{70, 70, 70, 70, 20}));
+}
+
 TEST(BatchLists, GrowWithThePartsUpToALimit)
 {
   const EglContext context("auto");
