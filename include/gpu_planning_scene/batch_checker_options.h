@@ -24,9 +24,10 @@ struct BatchCheckerOptions : CheckerOptions
   /// ("all").
   std::string device = "auto";
   Traversal traversal = Traversal::WorkQueue;
-  /// Most states that go to the GPU at once. Larger requests are split. Fewer go at once if these would take the GPU
-  /// more than 50 ms, or if their lists would overflow. 131,072 states need about 350 MB of the GPU's memory, and 64
-  /// bytes for each state and shape of the robot.
+  /// The most states that go to the GPU at once. Larger requests are split. The checker sends fewer if so many would
+  /// take the GPU more than 50 ms, overflow its lists, or need a buffer texture larger than its largest. 131,072 states
+  /// need about 350 MB of the GPU's memory (420 MB with Traversal::BreadthFirst), and 64 bytes for each state and shape
+  /// of the robot.
   std::size_t max_batch = 131072;
   /// The CPU checks batches of fewer states; 0: the GPU checks batches of every size. Unset: for each group, the
   /// checker measures at which batch size the GPU becomes faster.

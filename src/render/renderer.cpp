@@ -79,9 +79,9 @@ double shareOf(const std::vector<Visible>& views, std::size_t view, const Count&
   return most == 0.0 ? 0.0 : count(views[view]) / most;
 }
 
-/// Compares a view with the others. The robot, its colliding parts and the contacts have equal weight. So have the
-/// parts of the robot, because a gripper is small, but must be seen. A view that shows half of the contacts is good
-/// enough.
+/// The score of a view, relative to the best of all views: the robot, its colliding parts and the contacts have equal
+/// weight. Within the robot, each link has the same weight, because a gripper is small, but must be seen. A view that
+/// shows half of the contacts is good enough.
 double scoreOf(const std::vector<Visible>& views, std::size_t view)
 {
   double parts = 0.0;

@@ -23,8 +23,8 @@ struct CheckServerOptions
   std::size_t max_waiting_requests = 64;     ///< in each queue
   std::size_t max_waiting_states = 4000000;  ///< in each queue; one request always fits
   std::size_t max_states = 1000000;          ///< in one request
-  std::size_t max_batch_states =
-      kLargestBatch;  ///< states that are checked at once; fewer if they take longer than 0.5 s
+  /// The most states that are checked at once. Fewer are if so many would take longer than 0.5 s.
+  std::size_t max_batch_states = kLargestSlice;
 };
 
 /// A request to check states or motions. States are rows of values for some of the robot's variables. The other

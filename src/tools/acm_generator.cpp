@@ -165,7 +165,7 @@ GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const Sa
         if (count >= always_of_first)
           matrix.disabled.push_back({first, second, DisabledReason::Default});
         else
-          matrix.colliding_by_default.emplace_back(first, second);
+          matrix.colliding_in_default_state.emplace_back(first, second);
       }
       else if (hit == hits.end())
         matrix.disabled.push_back({first, second, DisabledReason::Never});
@@ -175,7 +175,7 @@ GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const Sa
         ++matrix.remaining_pairs;
     }
   }
-  matrix.remaining_pairs += matrix.colliding_by_default.size();
+  matrix.remaining_pairs += matrix.colliding_in_default_state.size();
   return matrix;
 }
 }  // namespace gpu_planning_scene::core

@@ -38,9 +38,9 @@ struct SamplingOptions
 struct GeneratedMatrix
 {
   std::vector<DisabledPair> disabled;  ///< sorted by link indices
-  /// Pairs of links that collide in the default state, but can be apart: they are not Default and must be checked.
-  /// MoveIt's Setup Assistant disables them.
-  std::vector<std::pair<int, int>> colliding_by_default;
+  /// Pairs of links that collide in the default state, but in a smaller share of the random states than
+  /// SamplingOptions::always_share. They must be checked; MoveIt's Setup Assistant disables them.
+  std::vector<std::pair<int, int>> colliding_in_default_state;
   std::size_t remaining_pairs = 0;  ///< pairs of links with collision shapes that must be checked
 };
 

@@ -55,7 +55,7 @@ Checked checkAll(StateChecker& checker, StateSource& source, const std::string& 
   Checked all;
   all.states.valid.reserve(source.count());
   all.states.colliding.reserve(source.count());
-  BatchSize batch({0.5, 16384, 1024, kLargestBatch});
+  BatchSize batch({0.5, 16384, 1024, kLargestSlice});
   ProgressBar progress("checking", source.count());
   while (all.states.valid.size() < source.count())
   {

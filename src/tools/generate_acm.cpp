@@ -58,7 +58,7 @@ std::string baseOf(const std::string& path, const std::string& out_path)
 void printSummary(const RobotModel& robot, const GeneratedMatrix& matrix, const SamplingOptions& sampling,
                   const std::vector<std::string>& groups)
 {
-  for (const auto& [first, second] : matrix.colliding_by_default)
+  for (const auto& [first, second] : matrix.colliding_in_default_state)
     std::cerr << "warning: in the default state, '" << robot.links()[first].name << "' and '"
               << robot.links()[second].name
               << "' collide, but in many random states they do not; so this pair stays checked. If it may collide, add "
@@ -122,8 +122,8 @@ int main(int argc, char** argv)
       "Assistant does, and writes them as disable_collisions of an SRDF: Adjacent (a joint joins them),\n"
       "Always (they collide in nearly all of many random states), Default (also in the default state) and\n"
       "Never (in none of them). The Setup Assistant disables all pairs that collide in the default state;\n"
-      "this tool leaves those to be checked that can be apart, and prints their names. Runs on the CPU, on\n"
-      "all cores, in double precision.\n"
+      "this tool keeps checking those that can be apart, and warns with their names. Runs on the CPU, on all\n"
+      "cores, in double precision.\n"
       "If there is no SRDF yet, or none with groups, it also writes planning groups: a chain from the root\n"
       "link to each tip, with the name of the tip.\n"
       "Exit code: 0 success, 2 bad usage, 1 any other error.",

@@ -17,7 +17,7 @@ BATCHES = {"16k": 1 << 14, "262k": 1 << 18, "1M": 1 << 20}
 # States that the breadth-first traversal checks, only to count its dispatches.
 BREADTH_FIRST_STATES = 256
 DEFAULT_PART = 131072  # BatchCheckerOptions::max_batch
-SLICE = 524288         # kLargestBatch of batch_size.h: within it, the host works beside the device
+SLICE = 524288         # kLargestSlice of batch_size.h: within it, the host works beside the device
 COUNTED_STATES = 16384
 
 # Assumptions, the same for both GPUs.

@@ -18,14 +18,6 @@
 
 namespace gpu_planning_scene::core
 {
-namespace
-{
-// A large batch is cut into slices. For each of them, CPU or GPU is chosen anew: the CPU becomes faster while proofs
-// are made. The slices are longer than those of CpuScene, because uploads overlap with the GPU's work only within a
-// slice. Batches with neighbourhoods are not cut.
-constexpr std::size_t kStatesPerChoice = kLargestBatch;
-}  // namespace
-
 struct BatchChecker::Impl
 {
   explicit Impl(const BatchCheckerOptions& options)
@@ -227,14 +219,15 @@ BatchResult BatchChecker::check(const double* states, std::size_t count, const s
     validateStates(*impl_->on_cpu.scene()->robot, states, count);
   if (around)
     return impl_->timedCheck(states, count, group, around, ordinary);
-  BatchResult result = impl_->timedCheck(states, std::min(count, kStatesPerChoice), group, nullptr, ordinary);
+  // For each slice, CPU or GPU is chosen anew: the CPU becomes faster while proofs are made.
+  BatchResult result = impl_->timedCheck(states, std::min(count, kLargestSlice), group, nullptr, ordinary);
   GpuWork work = impl_->work;
   result.valid.reserve(count);
   result.colliding.reserve(count);
-  for (std::size_t begin = kStatesPerChoice; begin < count; begin += kStatesPerChoice)
+  for (std::size_t begin = kLargestSlice; begin < count; begin += kLargestSlice)
   {
     const double* const first = states + begin * impl_->width();
-    result.append(impl_->timedCheck(first, std::min(kStatesPerChoice, count - begin), group, nullptr, ordinary));
+    result.append(impl_->timedCheck(first, std::min(kLargestSlice, count - begin), group, nullptr, ordinary));
     work += impl_->work;
   }
   impl_->work = work;

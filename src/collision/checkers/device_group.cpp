@@ -11,16 +11,16 @@
 #include "gpu_planning_scene/error.h"
 #include "model/seconds_since.h"
 
-// The devices take parts of a batch from a common list until it is empty, so a fast device takes more of them. A part
+// The devices take shares of a batch from a common list until it is empty, so a fast device takes more of them. A share
 // whose device was lost goes back to the list. Own method.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kSmallestPart = 16'384;  // fewer states are not worth a second device
-constexpr std::size_t kBusyPart = 65'536;      // fewer states do not keep a GPU busy
-constexpr std::size_t kLargestPart = 262'144;  // more states would keep the caller waiting for the slowest device
-constexpr std::size_t kPartsPerDevice = 4;
+constexpr std::size_t kSmallestShare = 16'384;  // fewer states are not worth a second device
+constexpr std::size_t kBusyShare = 65'536;      // fewer states do not keep a GPU busy
+constexpr std::size_t kLargestShare = 262'144;  // more states would keep the caller waiting for the slowest device
+constexpr std::size_t kSharesPerDevice = 4;
 
 /// The result of `action`'s call: what it throws, or nothing.
 template <class Action>
@@ -60,8 +60,11 @@ Message messageOf(const std::exception_ptr& error)
 }
 
 /// The neighbourhoods of `count` states from `begin` on, with the rows of the travel that they use.
-JointNeighbourhood partOf(const JointNeighbourhood& around, std::size_t begin, std::size_t count, std::size_t joints)
+JointNeighbourhood neighbourhoodsOf(const JointNeighbourhood& around, std::size_t begin, std::size_t count,
+                                    std::size_t joints)
 {
+  if (count == 0)
+    return {};
   const auto rows = around.rows.begin() + static_cast<std::ptrdiff_t>(begin);
   JointNeighbourhood part;
   part.rows.assign(rows, rows + static_cast<std::ptrdiff_t>(count));
@@ -129,7 +132,7 @@ std::vector<std::string> devicesOf(const std::string& selection)
   return devices;
 }
 
-/// A batch while the devices check its parts.
+/// A batch while the devices check its shares.
 struct DeviceGroup::Batch
 {
   const double* states;
@@ -137,18 +140,23 @@ struct DeviceGroup::Batch
   std::size_t width;
   const std::string& group;
   const JointNeighbourhood* around;
-  std::size_t per_part = 0;
-  std::vector<BatchResult> results = {};  // of each part
+  std::size_t per_share = 0;
+  std::vector<BatchResult> results = {};  // of each share
   std::mutex mutex = {};
-  std::vector<std::size_t> waiting = {};  // parts, the first one last
+  std::vector<std::size_t> waiting = {};  // shares, the first one last
 
-  /// Cuts the batch into parts for a number of devices: several for each, but of at least kBusyPart states. A smaller
-  /// batch is one part for each device.
+  /// Cuts the batch into equal shares of kBusyShare to kLargestShare states: up to kSharesPerDevice for each device,
+  /// and more only if these were too large. A batch that is too small for that is one share for each device, but no
+  /// share has fewer than kSmallestShare states, unless the batch has fewer.
   void cut(std::size_t devices)
   {
-    const std::size_t least = std::clamp((count + devices - 1) / devices, kSmallestPart, kBusyPart);
-    per_part = std::clamp(count / (devices * kPartsPerDevice), least, kLargestPart);
-    results.resize(std::max<std::size_t>(1, (count + per_part - 1) / per_part));
+    const auto sharesOf = [this](std::size_t states)
+    { return std::max<std::size_t>(1, (count + states - 1) / states); };
+    const std::size_t least = std::clamp(count / devices, kSmallestShare, kBusyShare);
+    const std::size_t wanted = std::min(count / least, devices * kSharesPerDevice);
+    const std::size_t shares = std::max(wanted, sharesOf(kLargestShare));
+    per_share = std::max<std::size_t>(1, (count + shares - 1) / shares);
+    results.resize(sharesOf(per_share));
     for (std::size_t i = results.size(); i-- > 0;)
       waiting.push_back(i);
   }
@@ -157,14 +165,14 @@ struct DeviceGroup::Batch
     const std::lock_guard<std::mutex> lock(mutex);
     if (waiting.empty())
       return std::nullopt;
-    const std::size_t part = waiting.back();
+    const std::size_t share = waiting.back();
     waiting.pop_back();
-    return part;
+    return share;
   }
-  void giveBack(std::size_t part)
+  void giveBack(std::size_t share)
   {
     const std::lock_guard<std::mutex> lock(mutex);
-    waiting.push_back(part);
+    waiting.push_back(share);
   }
 };
 
@@ -242,26 +250,26 @@ void DeviceGroup::setScene(std::shared_ptr<const PlanningScene> scene)
   scene_ = std::move(scene);
 }
 
-/// Checks waiting parts until none is left.
-void DeviceGroup::checkParts(StateChecker& device, Batch& batch) const
+/// Checks waiting shares until none is left.
+void DeviceGroup::checkShares(StateChecker& device, Batch& batch) const
 {
-  while (const std::optional<std::size_t> part = batch.take())
+  while (const std::optional<std::size_t> share = batch.take())
   {
-    const std::size_t begin = *part * batch.per_part;
-    const std::size_t count = std::min(batch.per_part, batch.count - begin);
+    const std::size_t begin = *share * batch.per_share;
+    const std::size_t count = std::min(batch.per_share, batch.count - begin);
     try
     {
       JointNeighbourhood around;
       if (batch.around)
-        around = partOf(*batch.around, begin, count, scene_->robot->joints().size());
-      BatchResult& result = batch.results[*part];
+        around = neighbourhoodsOf(*batch.around, begin, count, scene_->robot->joints().size());
+      BatchResult& result = batch.results[*share];
       result = device.check(batch.states + begin * batch.width, count, batch.group, batch.around ? &around : nullptr);
       if (result.revision != scene_->revision)
         throw DeviceLost("it has the scene of another revision");
     }
     catch (const DeviceLost&)
     {
-      batch.giveBack(*part);
+      batch.giveBack(*share);
       throw;
     }
   }
@@ -283,7 +291,7 @@ BatchResult DeviceGroup::check(const double* states, std::size_t count, const st
   {
     const std::size_t used = std::min(devices_.size(), batch.waiting.size());
     if (const std::exception_ptr error =
-            dropLost(onEachDevice(used, [&](StateChecker& device) { checkParts(device, batch); })))
+            dropLost(onEachDevice(used, [&](StateChecker& device) { checkShares(device, batch); })))
       std::rethrow_exception(error);
   }
   BatchResult result = std::move(batch.results.front());
@@ -297,10 +305,21 @@ SceneReport DeviceGroup::report(const std::string& group)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   requireDevice();
-  SceneReport report = devices_.front()->report(group);
-  for (std::size_t i = 1; i < devices_.size(); ++i)
-    addDecided(devices_[i]->report(group).decided, report.decided);
-  return report;
+  std::optional<SceneReport> report;
+  Errors errors;
+  for (const auto& device : devices_)
+    errors.push_back(thrownBy(
+        [&]
+        {
+          SceneReport one = device->report(group);
+          if (report)
+            addDecided(one.decided, report->decided);
+          else
+            report = std::move(one);
+        }));
+  if (const std::exception_ptr error = dropLost(errors))
+    std::rethrow_exception(error);
+  return *report;  // a device is left, so it has reported
 }
 
 std::string DeviceGroup::deviceName() const

@@ -15,8 +15,8 @@ namespace gpu_planning_scene::core
 /// none). Throws Error for "all" if the EGL or OpenGL library is missing, and if a part is empty.
 std::vector<std::string> devicesOf(const std::string& selection);
 
-/// Several devices as one checker. A large batch is cut into parts, and each part goes to the next free device. The
-/// order of the states is kept. If a device is lost, the others check its parts and all later batches; deviceWarning
+/// Several devices as one checker. A large batch is cut into shares, and each share goes to the next free device. The
+/// order of the states is kept. If a device is lost, the others check its shares and all later batches; deviceWarning
 /// then names it. A device also counts as lost if it holds another scene than the others. DeviceLost is thrown only if
 /// no device is left.
 class DeviceGroup : public StateChecker
@@ -45,7 +45,7 @@ class DeviceGroup : public StateChecker
   Errors onEachDevice(std::size_t count, const std::function<void(StateChecker&)>& action);
   std::exception_ptr dropLost(const Errors& errors);
   void restoreScene();
-  void checkParts(StateChecker& device, Batch& batch) const;
+  void checkShares(StateChecker& device, Batch& batch) const;
 
   mutable std::mutex mutex_;
   std::shared_ptr<const PlanningScene> scene_;

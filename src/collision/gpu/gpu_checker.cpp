@@ -85,7 +85,8 @@ void GpuChecker::setProblem(std::shared_ptr<const CollisionProblem> problem, std
   on_cpu_.reset();
 }
 
-/// Restores the old problem after a new one did not fit.
+/// Restores the old problem after a new one did not fit. `apply` writes all buffers again, so it does not matter what a
+/// lack of memory has left in them.
 void GpuChecker::restore()
 {
   usable_ = false;
@@ -134,7 +135,7 @@ std::string GpuChecker::fault() const
 void GpuChecker::selectPairs(std::shared_ptr<const CollisionProblem> problem)
 {
   requireUsableScene();
-  runOrLose([&] { gl_.run([&] { pairs_->selectPairs(*problem); }); });
+  startOnDevice([&] { pairs_->selectPairs(*problem); }).get();
   problem_ = std::move(problem);
   on_cpu_.reset();
 }
@@ -147,7 +148,7 @@ void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
   const bool tables = kinematics_ && kinematics_fault_.empty();
   try
   {
-    runOrLose([&] { gl_.run([&] { pairs_->useProofs(*proofs, *problem_, tables); }); });
+    startOnDevice([&] { pairs_->useProofs(*proofs, *problem_, tables); }).get();
   }
   catch (const DeviceLost&)
   {
@@ -163,20 +164,24 @@ void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
 void GpuChecker::prepareMargins()
 {
   requireUsableScene();
-  gl_.run([&] { pairs_->prepareMargins(); });
+  startOnDevice([&] { pairs_->prepareMargins(); }).get();
 }
 
-void GpuChecker::runOrLose(const std::function<void()>& action)
+std::future<void> GpuChecker::startOnDevice(std::function<void()> job)
 {
-  try
-  {
-    action();
-  }
-  catch (const OutOfDeviceMemory& error)  // OpenGL is then in an undefined state, through no fault of the caller
-  {
-    usable_ = false;
-    throw DeviceLost(error.what());
-  }
+  return gl_.start(
+      [this, job = std::move(job)]
+      {
+        try
+        {
+          job();
+        }
+        catch (const OutOfDeviceMemory& error)  // OpenGL is then in an undefined state, through no fault of the caller
+        {
+          usable_ = false;
+          throw DeviceLost(error.what());
+        }
+      });
 }
 
 void GpuChecker::requireUsableScene() const
@@ -235,7 +240,7 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
                     parts.add({begin, states});
                   });
   };
-  std::future<void> on_device = gl_.start(job);
+  std::future<void> on_device = startOnDevice(job);
   {
     const Finally wait([&on_device] { on_device.wait(); });
     while (const std::optional<StateRange> part = parts.next())
@@ -244,7 +249,7 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
       settled += part->count;
     }
   }
-  runOrLose([&] { on_device.get(); });
+  on_device.get();
   if (settled != count)  // the others would stay free
     throw DeviceLost("the device has returned " + std::to_string(settled) + " of " + std::to_string(count) + " states");
 }

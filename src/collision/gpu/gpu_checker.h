@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -74,8 +75,9 @@ class GpuChecker
   void release();
   void restore();
   void requireUsableScene() const;
-  /// Calls `action`, which waits for the device. If the device runs out of memory, its scene is lost: DeviceLost.
-  void runOrLose(const std::function<void()>& action);
+  /// Starts `job` on the thread of the OpenGL context. If the device runs out of memory, the scene counts as unusable
+  /// and the future throws DeviceLost.
+  std::future<void> startOnDevice(std::function<void()> job);
   void apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot);
   void check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
              const Margins* margins, BatchResult& result);

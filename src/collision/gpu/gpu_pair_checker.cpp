@@ -15,23 +15,23 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// The order of queries is learned from about this many states of a batch.
+/// The order of queries is learned from at most this many states of a batch.
 constexpr std::size_t kMaxCounted = 16384;
 
 constexpr std::size_t kFirstPart = 2048;
 
-/// Byte offsets in the results of a part: counters, then flags, then hits. `words` is the size of the flags and of the
-/// hits.
+/// Byte offsets in the results of a part: counters, then flags, then hits. `list_bytes` is the size of the flags and of
+/// the hits.
 struct AnswerOffsets
 {
   explicit AnswerOffsets(std::size_t count)
-    : words((count * sizeof(std::uint32_t) + Buffer::kStorageAlignment - 1) / Buffer::kStorageAlignment *
-            Buffer::kStorageAlignment),
-      hits(flags + words),
-      end(hits + words)
+    : list_bytes((count * sizeof(std::uint32_t) + Buffer::kStorageAlignment - 1) / Buffer::kStorageAlignment *
+                 Buffer::kStorageAlignment),
+      hits(flags + list_bytes),
+      end(hits + list_bytes)
   {
   }
-  std::size_t words;
+  std::size_t list_bytes;
   std::size_t flags = Buffer::kStorageAlignment;
   std::size_t hits;
   std::size_t end;
@@ -232,7 +232,7 @@ void GpuPairChecker::start(const Batch& batch, Part& part)
 {
   const AnswerOffsets offsets(part.count);
   part.answers.reserve(offsets.end);
-  part.answers.clear(offsets.flags, offsets.words);
+  part.answers.clear(offsets.flags, offsets.list_bytes);
   lists_.reserve(part.count, TexelBuffer::maxBytes());
   lists_.counters.clear();
   poses_.reserve(part.count * scene_.robotCount() * POSE_TEXELS * TexelBuffer::kTexelBytes);
@@ -249,8 +249,8 @@ void GpuPairChecker::start(const Batch& batch, Part& part)
   lists_.root_pairs.bindTexture(UNIT_ROOT_PAIRS);
   lists_.candidates.bindTexture(UNIT_CANDIDATES);
   lists_.counters.bindStorage(BINDING_COUNTERS);
-  part.answers.bindStorage(BINDING_FLAGS, offsets.flags, offsets.words);
-  part.answers.bindStorage(BINDING_HITS, offsets.hits, offsets.words);
+  part.answers.bindStorage(BINDING_FLAGS, offsets.flags, offsets.list_bytes);
+  part.answers.bindStorage(BINDING_HITS, offsets.hits, offsets.list_bytes);
 
   const auto states = static_cast<std::uint32_t>(part.count);
   testHalfSpaces(states);

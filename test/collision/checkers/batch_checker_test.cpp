@@ -5,12 +5,13 @@
 #include <cmath>
 #include <numeric>
 #include <random>
-#include <thread>
 
 #include <gtest/gtest.h>
 
 #include "collision/checkers/cpu_or_gpu.h"
+#include "collision/checkers/cpu_scene.h"
 #include "collision/checkers/open_checker.h"
+#include "collision/filter/proofs/proof_worker.h"
 #include "collision/gpu/sliding_balls.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
@@ -275,24 +276,21 @@ TEST_F(BatchCheckerTest, RefusesOptionsThatMakeNoSense)
   EXPECT_THROW(traversalFromName("depth_first"), Error);
 }
 
-/// Checks random states until the checker's device uses proofs of `scene`, which a background thread loads or makes.
-/// How long that takes depends on the machine's load; if it never happens, ctest's time limit ends the test.
-void waitForProofs(BatchChecker& checker, const TestScene& test, const std::shared_ptr<const PlanningScene>& scene)
+/// Lets the checker's device use proofs of `scene`, which a background thread loads or makes.
+void useProofs(BatchChecker& checker, const TestScene& test, const std::shared_ptr<const PlanningScene>& scene)
 {
-  constexpr std::size_t kRequest = 30'000;  // so many states make the checker ask for proofs
   constexpr std::size_t kCount = 2'000;
-  const std::vector<double> states = test.randomStates(kRequest, kSeed);
+  const std::vector<double> states = test.randomStates(kStatesBeforeProofs + 1, kSeed);
   BatchCheckerOptions options = with(Traversal::WorkQueue);
   options.reductions.proofs = false;
   BatchChecker unproven(scene, options);
   unproven.check(states.data(), kCount);
-  checker.check(states.data(), kRequest);
+  ASSERT_GT(unproven.lastWork().traversed, 0u);
+  checker.check(states.data(), kStatesBeforeProofs + 1);
+  checker.check(states.data(), kCount);  // requests the proofs
+  waitForProofs();
   checker.check(states.data(), kCount);
-  while (2 * checker.lastWork().traversed > unproven.lastWork().traversed)
-  {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));  // leaves the cores to the background thread
-    checker.check(states.data(), kCount);
-  }
+  ASSERT_LT(2 * checker.lastWork().traversed, unproven.lastWork().traversed) << checker.deviceWarning();
 }
 
 /// Expects the verdicts of the exact checker for random states.
@@ -313,7 +311,7 @@ TEST(ProofsOnTheDevice, AreForgottenWithTheirScene)
 {
   const TestScene& test = testScene("arm_boxes");
   BatchChecker checker(test.scene, with(Traversal::WorkQueue));
-  waitForProofs(checker, test, test.scene);
+  useProofs(checker, test, test.scene);
   expectExact(checker, test, test.scene, "", kSeed + 1);
   for (const auto& group : test.scene->robot->groups())
     expectExact(checker, test, test.scene, group.name, kSeed + 2);
@@ -333,7 +331,7 @@ TEST(ProofsOnTheDevice, AreForgottenWithTheirScene)
   padded->link_padding.assign(test.scene->robot->links().size(), 0.03);
   checker.setScene(padded);
   expectExact(checker, test, padded, "", kSeed + 4);
-  waitForProofs(checker, test, padded);
+  useProofs(checker, test, padded);
   expectExact(checker, test, padded, "", kSeed + 5);
 
   const std::shared_ptr<PlanningScene> balls = slidingBalls();

@@ -30,8 +30,15 @@ class LosableChecker : public CpuChecker
     if (left_-- == 0)
       throw DeviceLost("the test has switched it off");
     checked += count;
-    parts.push_back(count);
+    batches.push_back(count);
     return CpuChecker::check(states, count, group, around);
+  }
+
+  SceneReport report(const std::string& group) override
+  {
+    if (lost_in_report)
+      throw DeviceLost("the test has switched it off");
+    return CpuChecker::report(group);
   }
 
   void setScene(Scene scene) override
@@ -42,7 +49,8 @@ class LosableChecker : public CpuChecker
   }
 
   std::size_t checked = 0;
-  std::vector<std::size_t> parts;             // the numbers of states of all checks
+  bool lost_in_report = false;
+  std::vector<std::size_t> batches;           // the numbers of states of all checks
   std::uint64_t refused = ~std::uint64_t{0};  // revision of a scene that the device does not take
 
  private:
@@ -109,21 +117,28 @@ TEST_F(DeviceGroups, ShareTheStatesOfALargeBatch)
   EXPECT_EQ(decided, batches * kCount);
 }
 
-/// A small part takes a GPU nearly as long as a larger one.
-TEST_F(DeviceGroups, GetLargePartsButEachDeviceGetsOne)
+/// A small share takes a GPU nearly as long as a larger one.
+TEST_F(DeviceGroups, CutABatchIntoLargeShares)
 {
-  const auto partsOf = [this](std::size_t count)
+  std::vector<double> states = states_;
+  for (int doubled = 0; doubled < 5; ++doubled)
+    states.insert(states.end(), states.begin(), states.begin() + static_cast<std::ptrdiff_t>(states.size()));
+  const auto sharesOf = [&](std::size_t count)
   {
     const auto group = groupOf({-1, -1});
-    group->check(states_.data(), count);
-    std::vector<std::size_t> parts = checkers_[0]->parts;
-    parts.insert(parts.end(), checkers_[1]->parts.begin(), checkers_[1]->parts.end());
-    std::sort(parts.begin(), parts.end());
-    return parts;
+    group->check(states.data(), count);
+    std::vector<std::size_t> shares = checkers_[0]->batches;
+    shares.insert(shares.end(), checkers_[1]->batches.begin(), checkers_[1]->batches.end());
+    std::sort(shares.begin(), shares.end());
+    return shares;
   };
-  EXPECT_EQ(partsOf(100'000), (std::vector<std::size_t>{50'000, 50'000}));
-  EXPECT_EQ(partsOf(40'001), (std::vector<std::size_t>{20'000, 20'001}));
-  EXPECT_EQ(partsOf(10'000), (std::vector<std::size_t>{10'000}));
+  EXPECT_EQ(sharesOf(10'000), (std::vector<std::size_t>{10'000}));
+  EXPECT_EQ(sharesOf(40'001), (std::vector<std::size_t>{20'000, 20'001}));
+  EXPECT_EQ(sharesOf(100'000), (std::vector<std::size_t>{50'000, 50'000}));
+  EXPECT_EQ(sharesOf(131'073), (std::vector<std::size_t>{65'536, 65'537})) << "no share of one state";
+  EXPECT_EQ(sharesOf(200'000), (std::vector<std::size_t>{66'666, 66'667, 66'667}));
+  EXPECT_EQ(sharesOf(1'000'000), std::vector<std::size_t>(8, 125'000)) << "four for each device";
+  EXPECT_EQ(sharesOf(2'400'000), std::vector<std::size_t>(10, 240'000)) << "no share is too large";
 }
 
 TEST_F(DeviceGroups, LoseNoStateIfDevicesAreLost)
@@ -139,6 +154,15 @@ TEST_F(DeviceGroups, LoseNoStateIfDevicesAreLost)
     EXPECT_EQ(group->check(states_.data(), kCount).valid, expected_.valid);
     EXPECT_NE(group->deviceWarning().find("was lost: the test has switched it off"), std::string::npos);
   }
+}
+
+TEST_F(DeviceGroups, ReportWithoutADeviceThatIsLostMeanwhile)
+{
+  const auto group = groupOf({-1, -1});
+  checkers_[0]->lost_in_report = true;
+  EXPECT_EQ(group->report().world_pairs, CpuChecker(scene_).report().world_pairs);
+  EXPECT_EQ(group->deviceName(), "CPU");
+  EXPECT_EQ(group->check(states_.data(), kCount).valid, expected_.valid);
 }
 
 TEST_F(DeviceGroups, AreLostIfNoDeviceIsLeft)
@@ -219,6 +243,8 @@ TEST_F(DeviceGroups, KeepTheNeighbourhoodOfEachState)
   const std::vector<std::uint8_t> one = CpuChecker(scene_).check(states_.data(), kCount, "", &around).valid;
   EXPECT_NE(one, expected_.valid);
   EXPECT_EQ(groupOf({-1, -1, -1})->check(states_.data(), kCount, "", &around).valid, one);
+  around.rows.clear();
+  EXPECT_TRUE(groupOf({-1, -1})->check(nullptr, 0, "", &around).valid.empty());
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

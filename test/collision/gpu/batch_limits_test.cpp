@@ -244,7 +244,7 @@ TEST_P(BatchLimits, ListsThatGrowWhileTheDeviceWorksChangeNoAnswer)
   }
 }
 
-/// Poses of which the source writes only a few at once.
+/// A source of poses that writes at most kMost states at once.
 class FewPoses : public UploadedPoses
 {
  public:
@@ -255,8 +255,9 @@ class FewPoses : public UploadedPoses
 
 TEST_P(BatchLimits, APartHasNoMoreStatesThanTheSourceOfThePosesWrites)
 {
+  const Verdicts once = verdictsWith({});
   const EglContext context("auto");
-  GpuPairChecker checker(folder_.path(), GetParam(), kStates);
+  GpuPairChecker checker(folder_.path(), GetParam(), kStates, {}, std::numeric_limits<double>::infinity());
   checker.setProblem(*problem_);
   const UploadedPoses::LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses_[row]; };
   FewPoses poses(*problem_, 1, link_poses);
@@ -265,6 +266,11 @@ TEST_P(BatchLimits, APartHasNoMoreStatesThanTheSourceOfThePosesWrites)
   checker.check(poses, kStates, verdicts, nullptr,
                 [&parts](std::size_t /*begin*/, std::size_t count) { parts.push_back(count); });
   EXPECT_EQ(parts, (std::vector<std::size_t>{70, 70, 70, 70, 20}));
+  for (std::size_t i = 0; i < kStates; ++i)
+  {
+    EXPECT_EQ(verdicts.flags[i] & STATE_HIT, once.flags[i] & STATE_HIT) << "state " << i;
+    EXPECT_EQ(verdicts.flags[i] == 0, once.flags[i] == 0) << "state " << i;
+  }
 }
 
 TEST(BatchLists, GrowWithThePartsUpToALimit)
