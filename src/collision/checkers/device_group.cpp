@@ -150,8 +150,7 @@ struct DeviceGroup::Batch
   /// share has fewer than kSmallestShare states, unless the batch has fewer.
   void cut(std::size_t devices)
   {
-    const auto sharesOf = [this](std::size_t states)
-    { return std::max<std::size_t>(1, (count + states - 1) / states); };
+    const auto sharesOf = [this](std::size_t size) { return std::max<std::size_t>(1, (count + size - 1) / size); };
     const std::size_t least = std::clamp(count / devices, kSmallestShare, kBusyShare);
     const std::size_t wanted = std::min(count / least, devices * kSharesPerDevice);
     const std::size_t shares = std::max(wanted, sharesOf(kLargestShare));
