@@ -32,10 +32,10 @@ GlThread::~GlThread()
   thread_.join();
 }
 
-std::future<void> GlThread::start(const std::function<void()>& job)
+std::future<void> GlThread::start(std::function<void()> job)
 {
   std::packaged_task<void()> task(
-      [&job]
+      [job = std::move(job)]
       {
         try
         {

@@ -26,8 +26,8 @@ class GlThread
   /// meanwhile, whether the job failed or not. Thread-safe.
   void run(const std::function<void()>& job) { start(job).get(); }
 
-  /// The same without waiting. The future's `get` waits and throws. `job` must exist until then.
-  std::future<void> start(const std::function<void()>& job);
+  /// The same without waiting. The future's `get` waits and throws. What `job` refers to must exist until then.
+  std::future<void> start(std::function<void()> job);
 
   const Device& device() const { return device_; }
 

@@ -232,15 +232,15 @@ void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_c
   requireUsableScene();
   PartQueue parts;
   std::size_t settled = 0;
-  const std::function<void()> job = [&]
-  {
-    const Finally end([&parts] { parts.end(); });
-    pairs_->check(source, count, verdicts_, margins,
-                  [&parts](std::size_t begin, std::size_t states) {
-                    parts.add({begin, states});
-                  });
-  };
-  std::future<void> on_device = startOnDevice(job);
+  std::future<void> on_device = startOnDevice(
+      [&]
+      {
+        const Finally end([&parts] { parts.end(); });
+        pairs_->check(source, count, verdicts_, margins,
+                      [&parts](std::size_t begin, std::size_t states) {
+                        parts.add({begin, states});
+                      });
+      });
   {
     const Finally wait([&on_device] { on_device.wait(); });
     while (const std::optional<StateRange> part = parts.next())
