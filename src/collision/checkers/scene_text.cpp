@@ -43,18 +43,19 @@ std::string batchesText(std::size_t cpu_below)
                                                               : "batches of fewer than " + counted(cpu_below, "state");
 }
 
-/// "12.3 % by joint tables (15 ns), ...": the shares of the states, and the time of each stage per state.
+/// "1000, 12.3 % by joint tables (15 ns), ...": the number of states, their shares, and the time of each stage per
+/// state.
 std::string decidedText(const std::vector<DecidedStates>& decided)
 {
   double all = 0.0;
   for (const DecidedStates& stage : decided)
     all += static_cast<double>(stage.states);
-  std::string text;
+  std::string text = std::to_string(std::llround(all));
   for (const DecidedStates& stage : decided)
   {
     char share[64];
-    std::snprintf(share, sizeof share, "%.1f %% by ", 100.0 * static_cast<double>(stage.states) / all);
-    text += (text.empty() ? "" : ", ") + std::string(share) + stage.by;
+    std::snprintf(share, sizeof share, ", %.1f %% by ", 100.0 * static_cast<double>(stage.states) / all);
+    text += share + stage.by;
     if (stage.nanoseconds > 0.0)
       text += " (" + std::to_string(std::lround(stage.nanoseconds)) + " ns a state)";
   }

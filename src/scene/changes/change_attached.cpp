@@ -124,9 +124,10 @@ void SceneChanger::warnOfForbiddenCarrier(const AttachedObject& attached)
   const std::vector<std::string> named = matrix.bodiesWithEntries();
   if (!std::binary_search(named.begin(), named.end(), id) || !std::binary_search(named.begin(), named.end(), link))
     return;
-  result_.warnings.push_back("the allowed-collision matrix forbids object '" + id + "' to touch link '" + link +
-                             "', but this pair is not checked, because the link carries the object; list the link in "
-                             "touch_links to silence this warning");
+  result_.warnings.push_back(
+      "the allowed-collision matrix forbids object '" + id + "' to touch link '" + link +
+      "', but this pair is not checked, because the link carries the object; if that is intended, "
+      "list the link in touch_links too, and this warning does not come");
 }
 
 /// A pose in the link's own frame does not need the state of the robot.
