@@ -150,12 +150,12 @@ struct DeviceGroup::Batch
   /// share has fewer than kSmallestShare states, unless the batch has fewer.
   void cut(std::size_t devices)
   {
-    const auto sharesOf = [this](std::size_t size) { return std::max<std::size_t>(1, (count + size - 1) / size); };
+    const auto shares_of = [this](std::size_t size) { return std::max<std::size_t>(1, (count + size - 1) / size); };
     const std::size_t least = std::clamp(count / devices, kSmallestShare, kBusyShare);
     const std::size_t wanted = std::min(count / least, devices * kSharesPerDevice);
-    const std::size_t shares = std::max(wanted, sharesOf(kLargestShare));
+    const std::size_t shares = std::max(wanted, shares_of(kLargestShare));
     per_share = std::max<std::size_t>(1, (count + shares - 1) / shares);
-    results.resize(sharesOf(per_share));
+    results.resize(shares_of(per_share));
     for (std::size_t i = results.size(); i-- > 0;)
       waiting.push_back(i);
   }

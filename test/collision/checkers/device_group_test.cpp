@@ -123,7 +123,7 @@ TEST_F(DeviceGroups, CutABatchIntoLargeShares)
   std::vector<double> states = states_;
   for (int doubled = 0; doubled < 5; ++doubled)
     states.insert(states.end(), states.begin(), states.begin() + static_cast<std::ptrdiff_t>(states.size()));
-  const auto sharesOf = [&](std::size_t count)
+  const auto shares_of = [&](std::size_t count)
   {
     const auto group = groupOf({-1, -1});
     group->check(states.data(), count);
@@ -132,13 +132,13 @@ TEST_F(DeviceGroups, CutABatchIntoLargeShares)
     std::sort(shares.begin(), shares.end());
     return shares;
   };
-  EXPECT_EQ(sharesOf(10'000), (std::vector<std::size_t>{10'000}));
-  EXPECT_EQ(sharesOf(40'001), (std::vector<std::size_t>{20'000, 20'001}));
-  EXPECT_EQ(sharesOf(100'000), (std::vector<std::size_t>{50'000, 50'000}));
-  EXPECT_EQ(sharesOf(131'073), (std::vector<std::size_t>{65'536, 65'537})) << "no share of one state";
-  EXPECT_EQ(sharesOf(200'000), (std::vector<std::size_t>{66'666, 66'667, 66'667}));
-  EXPECT_EQ(sharesOf(1'000'000), std::vector<std::size_t>(8, 125'000)) << "four for each device";
-  EXPECT_EQ(sharesOf(2'400'000), std::vector<std::size_t>(10, 240'000)) << "no share is too large";
+  EXPECT_EQ(shares_of(10'000), (std::vector<std::size_t>{10'000}));
+  EXPECT_EQ(shares_of(40'001), (std::vector<std::size_t>{20'000, 20'001}));
+  EXPECT_EQ(shares_of(100'000), (std::vector<std::size_t>{50'000, 50'000}));
+  EXPECT_EQ(shares_of(131'073), (std::vector<std::size_t>{65'536, 65'537})) << "no share of one state";
+  EXPECT_EQ(shares_of(200'000), (std::vector<std::size_t>{66'666, 66'667, 66'667}));
+  EXPECT_EQ(shares_of(1'000'000), std::vector<std::size_t>(8, 125'000)) << "four for each device";
+  EXPECT_EQ(shares_of(2'400'000), std::vector<std::size_t>(10, 240'000)) << "no share is too large";
 }
 
 TEST_F(DeviceGroups, LoseNoStateIfDevicesAreLost)
