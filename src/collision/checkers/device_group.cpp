@@ -66,16 +66,16 @@ JointNeighbourhood neighbourhoodsOf(const JointNeighbourhood& around, std::size_
   if (count == 0)
     return {};
   const auto rows = around.rows.begin() + static_cast<std::ptrdiff_t>(begin);
-  JointNeighbourhood part;
-  part.rows.assign(rows, rows + static_cast<std::ptrdiff_t>(count));
-  const auto [least, most] = std::minmax_element(part.rows.begin(), part.rows.end());
+  JointNeighbourhood share;
+  share.rows.assign(rows, rows + static_cast<std::ptrdiff_t>(count));
+  const auto [least, most] = std::minmax_element(share.rows.begin(), share.rows.end());
   const std::uint32_t first = *least;
   const auto travel = around.travel.begin();
-  part.travel.assign(travel + static_cast<std::ptrdiff_t>(first * joints),
-                     travel + static_cast<std::ptrdiff_t>((*most + std::size_t{1}) * joints));
-  for (std::uint32_t& row : part.rows)
+  share.travel.assign(travel + static_cast<std::ptrdiff_t>(first * joints),
+                      travel + static_cast<std::ptrdiff_t>((*most + std::size_t{1}) * joints));
+  for (std::uint32_t& row : share.rows)
     row -= first;
-  return part;
+  return share;
 }
 
 void addLine(const std::string& line, const std::string& separator, std::string& all)

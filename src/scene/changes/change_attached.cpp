@@ -126,8 +126,8 @@ void SceneChanger::warnOfForbiddenCarrier(const AttachedObject& attached)
     return;
   result_.warnings.push_back(
       "the allowed-collision matrix forbids object '" + id + "' to touch link '" + link +
-      "', but this pair is not checked, because the link carries the object; if that is intended, "
-      "list the link in touch_links too, and this warning does not come");
+      "', but this pair is not checked, because the link carries the object; to avoid this warning, "
+      "list the link in touch_links too");
 }
 
 /// A pose in the link's own frame does not need the state of the robot.

@@ -1,7 +1,6 @@
 // The batch checker's answers do not depend on the batches and order of the states. A refused call changes nothing.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <random>
