@@ -4,8 +4,9 @@
 # say_progress LOG: prints once a minute how many steps of the build are done.
 say_progress()
 {
+  local minutes=0
   while sleep 60; do
-    say "steps done: $(grep -oE '^\[[0-9]+/[0-9]+\]' "$1" | tail -1)"
+    say "minute $((++minutes)), steps done: $(grep -oE '^\[[0-9]+/[0-9]+\]' "$1" | tail -1)"
   done
 }
 

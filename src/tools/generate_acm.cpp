@@ -119,11 +119,14 @@ int main(int argc, char** argv)
   const Tool tool{
       "generate_acm", "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [options]",
       "Finds the pairs of a robot's links that need not be checked for collision, as MoveIt's Setup\n"
-      "Assistant does, and writes them as disable_collisions of an SRDF: Adjacent (a joint joins them),\n"
-      "Always (they collide in nearly all of many random states), Default (also in the default state) and\n"
-      "Never (in none of them). The Setup Assistant disables all pairs that collide in the default state;\n"
-      "this tool keeps checking those that can be apart, and warns with their names. Runs on the CPU, on all\n"
-      "cores, in double precision.\n"
+      "Assistant does, and writes them as disable_collisions of an SRDF, with one of these reasons:\n"
+      "  Adjacent  a joint joins the two links\n"
+      "  Always    they collide in nearly all of many random states\n"
+      "  Default   like Always, and they also collide in the default state\n"
+      "  Never     they collide in none of the random states\n"
+      "The Setup Assistant disables all pairs that collide in the default state; this tool keeps checking\n"
+      "those that can be apart, and warns with their names. Runs on the CPU, on all cores, in double\n"
+      "precision.\n"
       "If there is no SRDF yet, or none with groups, it also writes planning groups: a chain from the root\n"
       "link to each tip, with the name of the tip.\n"
       "Exit code: 0 success, 2 bad usage, 1 any other error.",
