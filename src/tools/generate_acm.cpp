@@ -63,10 +63,10 @@ void printSummary(const RobotModel& robot, const GeneratedMatrix& matrix, const 
               << robot.links()[second].name
               << "' collide, but in many random states they do not; so this pair stays checked. If it may collide, add "
                  "a disable_collisions entry with a reason of your own\n";
-  std::cerr << counted(sampling.samples, "random state") << ", seed " << sampling.seed << "\ndisabled pairs of links:";
+  std::cerr << counted(sampling.samples, "random state") << ", seed " << sampling.seed << "\ndisabled pairs of links: ";
   for (const DisabledReason reason :
        {DisabledReason::Adjacent, DisabledReason::Default, DisabledReason::Always, DisabledReason::Never})
-    std::cerr << " "
+    std::cerr << (reason == DisabledReason::Adjacent ? "" : ", ")
               << std::count_if(matrix.disabled.begin(), matrix.disabled.end(),
                                [&](const DisabledPair& pair) { return pair.reason == reason; })
               << " " << nameOf(reason);

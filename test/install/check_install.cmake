@@ -6,6 +6,7 @@
 #   PLUGIN     a third package, which adds a planner
 #   PREFIX     the CMAKE_INSTALL_PREFIX of BUILD
 #   GENERATOR  the CMake generator of BUILD, because a machine may have only one
+#   LAUNCHER   compiler launcher (ccache, or empty)
 #   SANITIZE   whether BUILD has sanitizers, which CONSUMER then needs too
 #   MODULE     whether BUILD has the Python module
 #   MODULE_ENVIRONMENT  variables with which Python can load a sanitized module
@@ -45,7 +46,11 @@ set(ENV{DESTDIR} ${folder}/root)
 set(prefix ${folder}/root${PREFIX})
 # The programs are compiled without optimisation, because they run for a moment only. Sanitized libraries need the
 # sanitizers only where a program is linked.
-set(build_options -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG")
+set(build_options -DCMAKE_BUILD_TYPE=Release "-DCMAKE_CXX_FLAGS_RELEASE=-O0 -DNDEBUG"
+  -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+# ccache finds the results of earlier runs only if it leaves out the name of the temporary folder.
+set(ENV{CCACHE_BASEDIR} ${folder})
+set(ENV{CCACHE_NOHASHDIR} 1)
 if(SANITIZE)
   foreach(kind EXE SHARED)
     list(APPEND build_options "-DCMAKE_${kind}_LINKER_FLAGS=-fsanitize=address,undefined")

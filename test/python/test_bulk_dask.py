@@ -141,7 +141,7 @@ class Cluster(Case):
         return line
 
     def test_the_cluster_and_this_machine_write_the_same_bytes(self):
-        run = ["--random", 40000, "--shard", 2500, "--seed", 3]
+        run = ["--random", 8000, "--shard", 500, "--seed", 3]
         expected = self.whole(*run)
         self.assertIn("16 shards computed twice", self.succeed(*run, "--check-twice", 1))
         self.assertTrue(expected == content(self.out))
@@ -154,8 +154,8 @@ class Cluster(Case):
         self.assertTrue(expected == content(self.folder / "one"))
 
     def test_states_of_a_file_travel_to_the_workers(self):
-        np.save(self.folder / "states.npy", arm().random_states(40000, seed=4))
-        run = ["--states", self.folder / "states.npy", "--shard", 2500]
+        np.save(self.folder / "states.npy", arm().random_states(8000, seed=4))
+        run = ["--states", self.folder / "states.npy", "--shard", 500]
         self.succeed(*run)
         self.assertTrue(self.whole(*run) == content(self.out))
 
@@ -169,7 +169,7 @@ class Cluster(Case):
         self.assertTrue(self.whole(*run) == content(self.out))
 
     def test_killed_workers_lose_and_double_no_state(self):
-        run = ["--random", 300000, "--shard", 5000, "--seed", 5]
+        run = ["--random", 60000, "--shard", 1000, "--seed", 5]
         expected = self.whole(*run)
         process = started_bulk(*self.options(*run, "--out", self.out))
         kills = 0
@@ -199,7 +199,7 @@ class Cluster(Case):
         self.assertTrue(self.whole(*run) == content(self.out))
 
     def test_a_worker_that_lies_is_named_and_its_shards_are_deleted(self):
-        run = ["--random", 100000, "--shard", 1000]
+        run = ["--random", 50000, "--shard", 500]
         liar = self.workers()[1]
         self.patch(flip_one_answer, liar)
         status, line, _ = bulk(*self.options(*run, "--out", self.out))
@@ -212,7 +212,7 @@ class Cluster(Case):
                 self.assertEqual(expected[path], data)
 
     def test_a_killed_run_goes_on_on_the_cluster(self):
-        run = ["--random", 300000, "--shard", 5000, "--seed", 5]
+        run = ["--random", 60000, "--shard", 1000, "--seed", 5]
         process = started_bulk(*self.options(*run, "--out", self.out))
         wait_for_shards(self.out, 5, process)
         process.kill()

@@ -29,7 +29,7 @@ void expectFailure(const ShaderFolder& shaders, const std::string& family)
 
 TEST(Stability, NoAnswerIsWrongInAnyFamily)
 {
-  const ProgramOutput output = runStability({"--quick", "--cases", "8"});
+  const ProgramOutput output = runStability({"--quick", "--cases", "4"});
   EXPECT_EQ(output.exit_code, 0) << output.err;
   EXPECT_NE(output.out.find("| random rigid motions |"), std::string::npos) << output.out;
 }

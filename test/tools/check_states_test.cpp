@@ -134,6 +134,13 @@ TEST_F(CheckStates, AGroupRestrictsThePairs)
   expectError(checkCsv(csv, {"--group", "sails"}), 1, "sails");
 }
 
+TEST_F(CheckStates, FewStatesHaveNoRate)
+{
+  EXPECT_EQ("99 states", linesOf(check({"--random", "99"}).err).back().substr(0, 9));
+  EXPECT_EQ(std::string::npos, linesOf(check({"--random", "99"}).err).back().find("states/s"));
+  EXPECT_NE(std::string::npos, linesOf(check({"--random", "100"}).err).back().find(" states/s, "));
+}
+
 TEST_F(CheckStates, TheLastLineOfTheSummaryIsAsPromised)
 {
   const ProgramOutput output = check({"--random", "3000", "--seed", "7", "--max-batch", "999"});

@@ -46,7 +46,7 @@ TEST_P(Invariance, ValidIsTheSameForTraversalsBatchSizesAndOrders)
   const TestScene& scene = testScene(GetParam());
   keepTrees(*scene.scene);
   // All batch sizes check the same states. Small batches check fewer of them, to save time.
-  constexpr std::size_t kStates = repetitions(4096, 16384);
+  constexpr std::size_t kStates = repetitions(2048, 16384);
   const std::vector<double> states = scene.randomStates(kStates, kSeed);
   const std::size_t width = scene.scene->robot->variables().size();
   BatchChecker reference(scene.scene, with(Traversal::WorkQueue));

@@ -99,10 +99,10 @@ TEST_P(Exact, CloseToContact)
 
 INSTANTIATE_TEST_SUITE_P(
     Robots, Exact,
-    testing::Values(Slice{"kr5", "kr5", repetitions(150U, 400U), repetitions(40U, 100U)},
-                    Slice{"ur5_robotiq", "ur5_table_pick", repetitions(80U, 200U), repetitions(40U, 100U)},
-                    Slice{"wam", "wam", repetitions(80U, 200U), repetitions(40U, 100U)},
-                    Slice{"drchubo", "drchubo", repetitions(25U, 50U), repetitions(6U, 10U)},
+    testing::Values(Slice{"kr5", "kr5", repetitions(100U, 400U), repetitions(30U, 100U)},
+                    Slice{"ur5_robotiq", "ur5_table_pick", repetitions(60U, 200U), repetitions(30U, 100U)},
+                    Slice{"wam", "wam", repetitions(60U, 200U), repetitions(30U, 100U)},
+                    Slice{"drchubo", "drchubo", repetitions(15U, 50U), repetitions(6U, 10U)},
                     Slice{"carrying", "ur5_table_pick", repetitions(20U, 30U), repetitions(10U, 20U)}),
     [](const auto& parameter) { return std::string(parameter.param.name); });
 }  // namespace

@@ -22,7 +22,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kToleratedStates = repetitions(500, 800);
+constexpr std::size_t kToleratedStates = repetitions(300, 800);
 constexpr std::size_t kMaxMeasured = 5;  // by the oracle, which is slow
 
 /// A checker with a tolerance. `method`: "cpu", "breadth_first" or "work_queue".
@@ -145,7 +145,7 @@ TEST_P(ToleranceBy, CountsOnTopOfPaddingForMeshesFromAllSides)
   scene->attach("moving", "l", {}, scene->robot->defaultState().data());
   std::mt19937_64 generator(kSeed);
   std::uniform_real_distribution<double> gaps(0.0, 0.2);
-  constexpr std::size_t kPoses = repetitions(1000, 4000);
+  constexpr std::size_t kPoses = repetitions(500, 4000);
   std::vector<double> states;
   std::vector<double> gap;
   for (std::size_t i = 0; i < kPoses; ++i)

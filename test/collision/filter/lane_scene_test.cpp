@@ -254,7 +254,7 @@ class BoxesOfSelfPairs : public testing::TestWithParam<TwoBoxes>
 
 TEST_P(BoxesOfSelfPairs, AreNotSeparatedInContact)
 {
-  constexpr std::size_t kStates = repetitions(1000, 40000);
+  constexpr std::size_t kStates = repetitions(300, 40000);
   const ProvenScene proven = prove(twoBoxes(GetParam()));
   const std::vector<double> states = nearContactStates(proven.scene, kStates, kSeed + 3);
   const std::vector<InstancePairs> colliding = collidingPairs(proven, states);

@@ -104,9 +104,10 @@ TEST(ProofLoading, BeginsWithTheFirstLargeBatchAndMakesNoProofs)
 {
   const CacheOfATest cache;
   std::mt19937_64 generator(kSeed);
-  std::vector<double> states(kManyStates * sliderRobot()->variables().size());
+  const std::shared_ptr<const RobotModel> robot = sliderRobot();
+  std::vector<double> states(kManyStates * robot->variables().size());
   for (std::size_t i = 0; i < kManyStates; ++i)
-    sliderRobot()->randomState(generator, states.data() + i * 2);
+    robot->randomState(generator, states.data() + i * robot->variables().size());
   const auto check = [&states](FreshChecker& fresh, std::size_t count)
   {
     std::vector<std::uint8_t> valid = fresh.checker.check(states.data(), count).valid;

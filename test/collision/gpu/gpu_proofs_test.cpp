@@ -97,7 +97,7 @@ class GpuProofsOfScenes : public testing::TestWithParam<const char*>
 
 TEST_P(GpuProofsOfScenes, DecideMostPairsOfRandomStates)
 {
-  compare(proven_->scene.randomStates(repetitions(2000, 40'000), kSeed), nullptr);
+  compare(proven_->scene.randomStates(repetitions(1000, 40'000), kSeed), nullptr);
   std::cout << "traversed pairs: " << traversedShare() << " of those without proofs" << std::endl;
   EXPECT_LT(traversedShare(), 0.5);
 }
