@@ -186,7 +186,7 @@ class Checks(Folder):
 
 class Resume(Folder):
     def test_a_killed_run_goes_on_without_a_finished_shard(self):
-        options = [*ARM_OPTIONS, "--random", 100 * 1000, "--shard", 1000, "--seed", 2]
+        options = [*ARM_OPTIONS, "--random", 100 * 180, "--shard", 180, "--seed", 2]
         self.succeed(*options, "--out", self.folder / "whole")
         run = started_bulk(*options, "--out", self.out)
         wait_for_shards(self.out, 5, run)

@@ -141,7 +141,7 @@ class Cluster(Case):
         return line
 
     def test_the_cluster_and_this_machine_write_the_same_bytes(self):
-        run = ["--random", 8000, "--shard", 500, "--seed", 3]
+        run = ["--random", 4000, "--shard", 250, "--seed", 3]
         expected = self.whole(*run)
         self.assertIn("16 shards computed twice", self.succeed(*run, "--check-twice", 1))
         self.assertTrue(expected == content(self.out))
@@ -154,8 +154,8 @@ class Cluster(Case):
         self.assertTrue(expected == content(self.folder / "one"))
 
     def test_states_of_a_file_travel_to_the_workers(self):
-        np.save(self.folder / "states.npy", arm().random_states(8000, seed=4))
-        run = ["--states", self.folder / "states.npy", "--shard", 500]
+        np.save(self.folder / "states.npy", arm().random_states(4000, seed=4))
+        run = ["--states", self.folder / "states.npy", "--shard", 250]
         self.succeed(*run)
         self.assertTrue(self.whole(*run) == content(self.out))
 
@@ -169,7 +169,7 @@ class Cluster(Case):
         self.assertTrue(self.whole(*run) == content(self.out))
 
     def test_killed_workers_lose_and_double_no_state(self):
-        run = ["--random", 60000, "--shard", 1000, "--seed", 5]
+        run = ["--random", 6000, "--shard", 100, "--seed", 5]
         expected = self.whole(*run)
         process = started_bulk(*self.options(*run, "--out", self.out))
         kills = 0
@@ -190,16 +190,16 @@ class Cluster(Case):
         self.assertTrue(expected == content(self.out))
 
     def test_a_worker_that_hangs_is_named_and_loses_no_state(self):
-        run = ["--random", 20000, "--shard", 1000, "--timeout", 10, "--check-twice", 0]
+        run = ["--random", 6000, "--shard", 300, "--timeout", 5, "--check-twice", 0]
         hung = self.workers()[0]
         self.patch(hang, hung)
         status, line, warnings = bulk(*self.options(*run, "--out", self.out))
         self.assertEqual(0, status, line)
-        self.assertEqual(f"warning: worker {hung} is left out: it did not answer for 10 s\n", warnings)
+        self.assertEqual(f"warning: worker {hung} is left out: it did not answer for 5 s\n", warnings)
         self.assertTrue(self.whole(*run) == content(self.out))
 
     def test_a_worker_that_lies_is_named_and_its_shards_are_deleted(self):
-        run = ["--random", 50000, "--shard", 500]
+        run = ["--random", 6000, "--shard", 100]
         liar = self.workers()[1]
         self.patch(flip_one_answer, liar)
         status, line, _ = bulk(*self.options(*run, "--out", self.out))
@@ -212,7 +212,7 @@ class Cluster(Case):
                 self.assertEqual(expected[path], data)
 
     def test_a_killed_run_goes_on_on_the_cluster(self):
-        run = ["--random", 60000, "--shard", 1000, "--seed", 5]
+        run = ["--random", 6000, "--shard", 100, "--seed", 5]
         process = started_bulk(*self.options(*run, "--out", self.out))
         wait_for_shards(self.out, 5, process)
         process.kill()
@@ -242,7 +242,7 @@ class Cluster(Case):
         thread = threading.Thread(target=watch)
         thread.start()
         try:
-            self.succeed("--scene", scenes, "--random", 100000, "--shard", 5000, "--check-twice", 0)
+            self.succeed("--scene", scenes, "--random", 6000, "--shard", 300, "--check-twice", 0)
         finally:
             self.ended = True
             thread.join()
@@ -258,11 +258,11 @@ class Cluster(Case):
     def test_functions_on_arrays_have_the_answers_of_a_run(self):
         robot = RobotBundle.from_files(ARM, ARM.with_suffix(".srdf"))
         scene = SceneBundle.from_file(ARM_SCENE, robot.load())
-        states = gps_dask.random_states(robot, scene, 20000, seed=3, chunk=3000)
+        states = gps_dask.random_states(robot, scene, 8000, seed=3, chunk=3000)
         valid = gps_dask.check_states(states, robot, scene, device="cpu")
-        self.assertEqual(((20000, 7), (20000,), bool), (states.shape, valid.shape, valid.dtype))
+        self.assertEqual(((8000, 7), (8000,), bool), (states.shape, valid.shape, valid.dtype))
         computed_states, computed = dask.compute(states, valid)  # on the cluster, the newest client
-        self.whole("--random", 20000, "--seed", 3, "--with-states")
+        self.whole("--random", 8000, "--seed", 3, "--with-states")
         rows = np.load(shards(self.folder / "whole")[0])
         np.testing.assert_array_equal(rows["state"], computed_states)
         np.testing.assert_array_equal(rows["valid"], computed)
