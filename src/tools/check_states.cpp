@@ -43,8 +43,8 @@ void checkUsage(const CommandLine& arguments)
   checkStateUsage(arguments);
 }
 
-/// The time of fewer states is mostly preparation.
-constexpr std::size_t kStatesWithRate = 100;
+/// Fewer states get no rate, because most of their time is preparation.
+constexpr std::size_t kFewestStatesWithRate = 100;
 
 struct Checked
 {
@@ -129,7 +129,7 @@ void printSummary(const PlanningScene& scene, const SceneReport& report, const S
   for (const std::string& text : pairs.describe(scene, 5))
     std::cerr << text << "\n";
   std::cerr << counted(count, "state") << ", " << valid << " valid, ";
-  if (count >= kStatesWithRate)
+  if (count >= kFewestStatesWithRate)
   {
     std::snprintf(line, sizeof line, "%.0f states/s, ", static_cast<double>(count) / std::max(result.seconds, 1e-9));
     std::cerr << line;
@@ -202,8 +202,8 @@ int main(int argc, char** argv)
                   "bodies that collide.\n"
                   "A summary goes to the standard error; its last line is\n"
                   "  N states, V valid, R states/s, DEVICE\n"
-                  "without R for fewer than 100 states, whose time is mostly preparation. DEVICE is CPU if the\n"
-                  "CPU checked all batches.\n"
+                  "For fewer than 100 states, 'R states/s' is left out, because most of the time is preparation.\n"
+                  "DEVICE is CPU if the CPU checked all batches.\n"
                   "Exit code: 0 success, 2 bad usage, 1 any other error.",
                   options(), run};
   return runTool(tool, argc, argv);

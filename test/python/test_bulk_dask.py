@@ -49,6 +49,18 @@ def hang():
     work.perform = lambda *_: time.sleep(1000)
 
 
+def slow_down():
+    """Makes this worker process take at least 30 ms for each shard, so that it can be killed before the run ends."""
+    import gpu_planning_scene.bulk.work as work  # pylint: disable=import-outside-toplevel
+    right = work.perform
+
+    def perform(*arguments):
+        time.sleep(0.03)
+        return right(*arguments)
+
+    work.perform = perform
+
+
 def loads():
     """How often this worker process has loaded a scene."""
     import gpu_planning_scene.bulk.bundle as bundle  # pylint: disable=import-outside-toplevel
@@ -171,10 +183,12 @@ class Cluster(Case):
     def test_killed_workers_lose_and_double_no_state(self):
         run = ["--random", 6000, "--shard", 100, "--seed", 5]
         expected = self.whole(*run)
+        for worker in self.workers():
+            self.patch(slow_down, worker)
         process = started_bulk(*self.options(*run, "--out", self.out))
         kills = 0
         while process.poll() is None:
-            time.sleep(0.05)
+            time.sleep(0.02)
             if kills < 2 and len(shards(self.out)) > 5 + 20 * kills:
                 for pid in list(self.worker_of_process())[:1]:
                     os.kill(pid, signal.SIGKILL)
@@ -218,6 +232,7 @@ class Cluster(Case):
         process.kill()
         process.communicate()
         finished = {each: each.stat().st_ino for each in shards(self.out)}
+        self.assertTrue(5 <= len(finished) < 60, len(finished))
         self.assertIn(f"; {60 - len(finished)} of 60 shards computed now", self.succeed(*run))
         self.assertEqual(finished, {each: each.stat().st_ino for each in finished})
         self.assertTrue(self.whole(*run) == content(self.out))

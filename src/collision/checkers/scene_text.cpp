@@ -111,7 +111,8 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
   if (report.cpu_below && *report.cpu_below != 0)
     lines.push_back("checked on the CPU: " + batchesText(*report.cpu_below));
   if (!report.decided.empty())
-    lines.push_back("states decided on the CPU, with those that measure the devices: " + decidedText(report.decided));
+    lines.push_back(std::string("states decided on the CPU") +
+                    (report.cpu_below ? ", also in measurements of its speed: " : ": ") + decidedText(report.decided));
   std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);
   return lines;
 }
@@ -138,10 +139,11 @@ std::vector<std::string> warningsOfScene(const PlanningScene& scene, const Scene
     const bool are_links = std::all_of(other.begin(), other.end(),
                                        [links](const BodyPair& pair) { return pair[0] < links && pair[1] < links; });
     lines.push_back(counted(other.size(), "pair") + found + pairList(scene, other) +
-                    (are_links ? std::string("; these are links of the robot: generate_acm ") +
-                                     (scene.robot->srdfCollisions().has_srdf ? "--srdf OLD " : "") +
-                                     "--out NEW makes an SRDF that allows what always collides, or allow a pair: "
-                               : "; move these bodies apart, or allow a pair that may touch: ") +
+                    (are_links
+                         ? std::string("; these are links of the robot: generate_acm ") +
+                               (scene.robot->srdfCollisions().has_srdf ? "--srdf OLD " : "") +
+                               "--out NEW makes an SRDF that allows the pairs that always collide, or allow a pair: "
+                         : "; move these bodies apart, or allow a pair that may touch: ") +
                     "allowed_collisions: [[" + scene.bodyName(other[0][0]) + ", " + scene.bodyName(other[0][1]) +
                     "]] in a scene file");
   }

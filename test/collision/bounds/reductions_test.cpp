@@ -371,6 +371,13 @@ TEST_F(SmallScene, WarnsOfLinksThatAlwaysCollideWithTheToolThatAllowsThem)
   const std::vector<std::string> warnings = warningsOfScene(*scene_, report);
   ASSERT_EQ(1U, warnings.size());
   EXPECT_NE(std::string::npos, warnings[0].find("generate_acm --srdf OLD --out NEW")) << warnings[0];
+
+  const PlanningScene without_srdf(RobotModel::fromXml(
+      "<robot name='two'><link name='a'/><link name='b'/>" + jointXml("joint", "fixed", "a", "b", "") + "</robot>", "",
+      {}));
+  report.colliding_in_samples = {{0, 1}};
+  const std::string warning = warningsOfScene(without_srdf, report).at(0);
+  EXPECT_NE(std::string::npos, warning.find("generate_acm --out NEW")) << warning;
 }
 
 TEST_F(SmallScene, AsksForFixedLinksOnlyWhereTheGroupMovesThem)

@@ -62,7 +62,7 @@ class LosableChecker : public CpuChecker
   {
     BatchResult result;
     result.valid.assign(count, 1);
-    result.colliding.assign(count, {-1, -1});
+    result.colliding.assign(count, kNoPair);
     return result;
   }
 
@@ -72,7 +72,7 @@ class LosableChecker : public CpuChecker
 class DeviceGroups : public testing::Test
 {
  protected:
-  static constexpr std::size_t kCount = 40'000;  // two shares
+  static constexpr std::size_t kCount = 50'000;  // a share for each of two or three devices
 
   /// Devices that are lost at these checks; -1: never.
   std::unique_ptr<DeviceGroup> groupOf(const std::vector<int>& lost_at)
