@@ -9,6 +9,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::size_t kMaxContacts = 1000;
+constexpr std::size_t kMaxContactsOfPair = 5;  // more of them merge on the screen
 
 /// The markers show a robot with unknown joint values in its default state, perhaps in collision. The services refuse
 /// to check this state, so users need an explanation.
@@ -57,7 +58,7 @@ void MarkerPublisher::publish()
       inspector_ = std::make_unique<const StateInspector>(now.scene, inspector_.get());
     std::vector<BodyPair> colliding;
     std::vector<Eigen::Vector3d> points;
-    for (const Contact& contact : inspector_->contacts(now.state.data(), "", kMaxContacts, 0))
+    for (const Contact& contact : inspector_->contacts(now.state.data(), "", kMaxContacts, kMaxContactsOfPair))
     {
       colliding.push_back(contact.bodies);
       points.push_back(contact.point);

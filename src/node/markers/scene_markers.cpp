@@ -18,8 +18,9 @@ constexpr BodyColor kTreeColor{31, 119, 180, 255};
 /// The 24 points of a box's edges count as so many triangles.
 constexpr std::size_t kTrianglesOfBox = 8;
 
-/// Colliding bodies are translucent, so that the contact points inside of them are visible.
-constexpr std::uint8_t kCollidingOpacity = 172;
+/// Colliding objects are translucent, so that links and contact points inside of them are visible. Links are not: RViz
+/// does not sort the triangles of a translucent body by depth, so it would look torn.
+constexpr std::uint8_t kCollidingObjectOpacity = 110;
 
 std::vector<std::size_t> triangleCounts(const PlanningScene& scene, std::size_t bodies)
 {
@@ -53,7 +54,8 @@ class MarkerMaker
       if (colliding.count(body) != 0)
       {
         color = collidingColor(scene_, body);
-        color[3] = kCollidingOpacity;
+        if (namespaceOf(body) == "objects")
+          color[3] = kCollidingObjectOpacity;
       }
       markers_.begin(namespaceOf(body), color);
       for (const PlacedShape& shape : bodyShapes(scene_, body))

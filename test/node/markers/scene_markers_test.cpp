@@ -120,11 +120,11 @@ TEST(Markers, CollidingBodiesAreRedAndContactsShown)
   EXPECT_EQ(std::count_if(array.markers.begin(), array.markers.end(), isRed), 2);
   EXPECT_EQ(countOf(array, "contacts", Marker::SPHERE_LIST), 1u);
   EXPECT_EQ(array.markers.back().points.size(), 2u);
-  // The contacts are inside of the colliding bodies.
+  // Links and contacts are seen inside of the objects that they hit.
   EXPECT_EQ(array.markers.back().color.a, 1.0F);
   for (const Marker& marker : array.markers)
     if (marker.action == Marker::ADD)
-      EXPECT_EQ(isRed(marker), marker.color.a < 0.9F);
+      EXPECT_EQ(isRed(marker) && marker.ns == "objects", marker.color.a < 0.9F);
   const auto red_of = [&](const std::string& name)
   {
     for (const Marker& marker : array.markers)
