@@ -19,18 +19,18 @@ using visualization_msgs::Marker;
 // A straight motion in joint space is a curve in the planning frame, so a line has several points per motion.
 constexpr double kStep = 0.05;           // radians and metres between two points of a line
 constexpr double kMaxSteps = 200.0;      // per motion
-constexpr double kLineWidth = 0.005;     // metres
+constexpr double kLineWidth = 0.012;     // metres
 constexpr double kPointDiameter = 0.02;  // metres
 
 constexpr std::size_t kMaxGhosts = 4;
-constexpr BodyColor kStartColor{70, 120, 255, 110};
-constexpr BodyColor kGoalColor{50, 210, 100, 110};
+constexpr BodyColor kStartColor{70, 120, 255, 90};
+constexpr BodyColor kGoalColor{50, 210, 100, 90};
 constexpr std::uint8_t kFaint = 40;     // opacity of the ghosts between start and goal
 constexpr double kUnmoved = 1e-3;       // metres, or entries of a rotation
 constexpr double kLetterHeight = 0.05;  // of the size of the moved bodies
 constexpr BodyColor kStartText{20, 60, 200, 255};
 constexpr BodyColor kGoalText{0, 120, 40, 255};
-constexpr BodyColor kLineColor{0, 204, 51, 255};
+constexpr BodyColor kLineColor{200, 0, 200, 255};
 constexpr BodyColor kPointColor{0, 204, 204, 255};
 
 /// The states of a path at small joint displacements, and the indices of the waypoints among them.
