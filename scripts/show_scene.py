@@ -17,6 +17,7 @@ import yaml
 YAWS = [math.atan2(-0.75, 1.0) + step * math.pi / 4 for step in (0, -1, 1, -2, 2, -3, 3, 4)]
 PITCH = 0.41  # radians
 MAX_POINTS = 500  # of a marker
+PATIENCE_FOR_PLAN = 1.0  # seconds: the node keeps the markers of the last plan for new subscribers
 
 
 def rotation_of(quaternion):
@@ -70,8 +71,9 @@ def hidden_share(points, eye, boxes):
 
 def view_of(markers, axes):
     """The focal point, distance and yaw of an RViz orbit view, in metres and radians: the robot fills much of the
-    picture, and few objects hide it. `axes`: the axes of the fixed frame, as columns, in the frame of the markers."""
-    robot = [points_of(marker) @ axes for marker in markers if marker.ns == "robot"]
+    picture, and few objects hide it. The robots along a planned path count as robots. `axes`: the axes of the fixed
+    frame, as columns, in the frame of the markers."""
+    robot = [points_of(marker) @ axes for marker in markers if marker.ns in ("robot", "ghosts")]
     points = numpy.concatenate(robot) if robot else numpy.array([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])
     lower, upper = points.min(axis=0), points.max(axis=0)
     focus, size = 0.5 * (lower + upper), max(0.1, float(numpy.linalg.norm(upper - lower)))
@@ -118,6 +120,17 @@ def first_markers(topic):
         except rospy.ROSException:
             rospy.logwarn("no message on %s; is planning_scene_node running under this name?", topic)
     return None
+
+
+def markers_of_plan(topic):
+    """The markers of the last planned path, in the frame of the scene's markers; empty without a plan."""
+    import rospy
+    from visualization_msgs.msg import MarkerArray
+
+    try:
+        return rospy.wait_for_message(topic, MarkerArray, PATIENCE_FOR_PLAN).markers[1:]
+    except rospy.ROSException:  # also when ROS shuts down
+        return []
 
 
 def announce(frame, child, rotation):
@@ -192,7 +205,7 @@ def main():
     frame, child, rotation = markers[0].header.frame_id, f"{node.strip('/')}/upright", upright(up)
     frames = announce(frame, child, rotation)  # published as long as this object lives
     fixed = frame if rotation.w == 1.0 else child
-    view = view_of(markers, rotation_of(rotation))
+    view = view_of(markers + markers_of_plan(f"{node}/plan_markers"), rotation_of(rotation))
     made = configuration(yaml.safe_load(template.read_text()), node, fixed, view)
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder, "scene.rviz")

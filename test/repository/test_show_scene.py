@@ -60,10 +60,20 @@ class Views(unittest.TestCase):
         _, _, yaw = show_scene.view_of([self.robot, shelf], numpy.eye(3))
         self.assertLess(math.cos(yaw), 0.5, "the camera is behind the shelf")
 
+    def test_show_the_robots_along_a_path(self):
+        _, _, first = show_scene.view_of([self.robot], numpy.eye(3))
+        to_the_camera = 1.5 * numpy.array([math.cos(first), math.sin(first), 0])
+        goal = box("ghosts", (5, 3, 0.5), (0.2, 0.2, 1))
+        before_it = box("objects", numpy.array([5, 3, 0.75]) + to_the_camera, (1, 1, 1.5))
+        _, _, yaw = show_scene.view_of([self.robot, before_it], numpy.eye(3))
+        self.assertEqual(first, yaw, "the object hides nothing without the goal")
+        focus, _, yaw = show_scene.view_of([self.robot, goal, before_it], numpy.eye(3))
+        self.assertTrue(numpy.allclose(focus, [5, 1.5, 0.5]))
+        self.assertNotEqual(first, yaw)
+
     def test_of_a_robot_without_shapes_show_the_origin(self):
         focus, _, _ = show_scene.view_of([], numpy.eye(3))
         self.assertTrue(numpy.allclose(focus, 0))
-
 
     def test_are_in_the_fixed_frame(self):
         y_up = numpy.array([[1, 0, 0], [0, 0, 1], [0, -1, 0]])  # the fixed frame's z axis is the y axis of the markers
