@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <set>
 #include <vector>
@@ -17,6 +18,9 @@ using BodyColor = std::array<std::uint8_t, 4>;  ///< red, green, blue, opacity
 constexpr BodyColor kCollidingColor{224, 45, 45, 255};        // links and attached objects
 constexpr BodyColor kCollidingObjectColor{138, 16, 30, 255};  // objects; darker, so that the robot stands out
 constexpr BodyColor kContactColor{255, 221, 0, 255};
+
+/// The contacts of a pair of bodies that are drawn. More of them merge on the screen.
+constexpr std::size_t kMaxContactsOfPair = 5;
 
 /// The colour of a body that does not collide: its colour in the scene (object_colors) if it has one, else a default.
 BodyColor bodyColor(const PlanningScene& scene, std::size_t body);

@@ -12,6 +12,7 @@
 #include "command_line/robot_arguments.h"
 #include "command_line/scene_arguments.h"
 #include "gpu_planning_scene/state_inspector.h"
+#include "render/drawing.h"
 #include "render/renderer.h"
 #include "tools/state_values.h"
 
@@ -20,7 +21,6 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::size_t kMaxContacts = 200;
-constexpr std::size_t kMaxContactsOfPair = 5;
 
 std::vector<Option> options()
 {

@@ -79,8 +79,9 @@ def count_loads():
 
 
 class Cluster(Case):
-    """A cluster with two worker processes. The test itself replaces those that have ended, because Dask's nannies
-    sometimes fail to do so on a busy machine."""
+    """A cluster with two worker processes. The runs have few states, because a checker makes proofs after 20,000 states
+    of its scene, which takes longer than the checks. The test itself replaces workers that have ended, because Dask's
+    nannies sometimes fail to do so on a busy machine."""
 
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp())

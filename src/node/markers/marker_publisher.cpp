@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "node/endpoints/respond.h"
+#include "render/drawing.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
 constexpr std::size_t kMaxContacts = 1000;
-constexpr std::size_t kMaxContactsOfPair = 5;  // more of them merge on the screen
 
 /// The markers show a robot with unknown joint values in its default state, perhaps in collision. The services refuse
 /// to check this state, so users need an explanation.
