@@ -49,7 +49,7 @@ void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& ro
       << "A cell is *wrong answers: false \"free\" + false \"collision\"*; 0: no wrong answer; -: the method does not "
          "support\nthese cases. "
          "[n]: of the wrong answers, n are in cases outside the domain of the method. Of n: the method checked only n "
-         "cases.\n\n"
+         "cases; a cell with 0 does not show this (see stability.md).\n\n"
       << "| cases | colliding / free / either |";
   for (const MethodName& method : methodNames())
     out << ' ' << method.name << " |";

@@ -26,9 +26,8 @@ class AllowedCollisionMatrix
   /// Sets the entry of a pair. The order of the two names does not matter.
   void setEntry(const std::string& body_1, const std::string& body_2, bool allowed);
   void setDefault(const std::string& body, bool allowed);
-  /// Removes all entries of a body and its default. Returns, sorted by name, the bodies whose contact with `body` was
-  /// forbidden before and is allowed now: an entry or the default of `body` forbade it, and the own default of the
-  /// returned body allows it.
+  /// Removes all entries of a body and its default. Returns the bodies that may touch `body` from now on, sorted by
+  /// name: an entry or the default of `body` forbade the contact, and the default of the returned body allows it.
   std::vector<std::string> removeEntry(const std::string& body);
   bool allowed(const std::string& body_1, const std::string& body_2) const;
 

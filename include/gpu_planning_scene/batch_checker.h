@@ -8,9 +8,10 @@
 
 namespace gpu_planning_scene::core
 {
-/// Checks states on the GPU: forward kinematics, root tests, tree traversal, triangle tests. The exact checker decides
-/// the undecided states: it traverses its own trees on the CPU, in double precision. A BatchChecker owns a GL context
-/// and the thread on which the context is current. Thread-safe: calls are served one after the other.
+/// Checks large batches of states on the GPU, and small ones on the CPU (BatchCheckerOptions::cpu_below). On the GPU:
+/// forward kinematics, tests of bounding volumes, tree traversal, triangle tests. Float arithmetic leaves few states
+/// undecided. The CPU decides these with its own trees, in double precision. A BatchChecker owns a GL context and the
+/// thread on which the context is current. Thread-safe: calls are served one after the other.
 ///
 /// A. Gress, G. Zachmann: Object-Space Interference Detection on Programmable Graphics Hardware (2003).
 class BatchChecker : public StateChecker

@@ -25,9 +25,9 @@ struct BatchCheckerOptions : CheckerOptions
   std::string device = "auto";
   Traversal traversal = Traversal::WorkQueue;
   /// The most states that go to the GPU at once. Larger requests are split. The checker sends fewer if so many would
-  /// take the GPU more than 50 ms, overflow its lists, or need a buffer texture larger than its largest. 131,072 states
-  /// need about 350 MB of the GPU's memory (420 MB with Traversal::BreadthFirst), and 64 bytes for each state and shape
-  /// of the robot.
+  /// take the GPU more than 50 ms, overflow its lists, or exceed its largest buffer texture. 131,072 states need about
+  /// 350 MB of the GPU's memory (420 MB with Traversal::BreadthFirst), plus 64 bytes for each shape of the robot in
+  /// each state.
   std::size_t max_batch = 131072;
   /// The CPU checks batches of fewer states; 0: the GPU checks batches of every size. Unset: for each group, the
   /// checker measures at which batch size the GPU becomes faster.
@@ -35,7 +35,8 @@ struct BatchCheckerOptions : CheckerOptions
   std::string shader_folder;  ///< empty: the installed shaders, or those of the source tree (see shaderFolder())
 };
 
-/// The work of the GPU for one batch, summed over its states.
+/// The work of the GPU for one batch, summed over its states. An instance is a shape at its place in the scene. For the
+/// stages, see docs/architecture.md.
 struct GpuWork
 {
   std::size_t states = 0;      ///< checked by the GPU

@@ -36,7 +36,7 @@ double shortestAngularDistance(double from, double to);
 /// Writes the state at `fraction` (0 to 1) of the straight motion from one state to another. Angles of continuous and
 /// planar joints turn in the shorter direction, quaternions are interpolated by slerp, and all other variables
 /// linearly. A continuous joint that is not periodic (isPeriodic) is interpolated linearly too. At 0 and 1 the result
-/// equals `from` or `to` bit by bit. So the value of an angle jumps by whole turns at 1 if it differs by more than half
-/// a turn between `from` and `to`. The robot itself does not jump.
+/// equals `from` or `to` bit by bit. If an angle differs by more than half a turn between `from` and `to`, its value
+/// jumps by whole turns as `fraction` reaches 1. The robot itself does not jump.
 void interpolate(const RobotModel& robot, const double* from, const double* to, double fraction, double* state);
 }  // namespace gpu_planning_scene::core

@@ -22,7 +22,7 @@ enum class MotionRule
   Samples,
   /// All samples are free, and the motion is proven free between them. Around each sample lies a segment that ends half
   /// way to the neighbouring samples. The proof: the clearance of the sample exceeds the displacement of every point of
-  /// the robot within this segment.
+  /// the robot within this segment. A motion with a joint beyond its limits has no proof and is invalid as a whole.
   Bound
 };
 
@@ -46,14 +46,16 @@ struct MotionVerdict
   bool valid = false;
   /// Fraction of the motion, 0 to 1. Under MotionRule::Samples: the last free sample before the first collision. Under
   /// MotionRule::Bound: the motion is proven free up to this fraction. It is at most the fraction under
-  /// MotionRule::Samples. 0 if the start collides; 1 if the motion is valid.
+  /// MotionRule::Samples. 1 if the motion is valid. 0 for every invalid motion unless the query is
+  /// MotionQuery::LastValid; with it, 0 if the start collides or the motion is invalid as a whole (a joint beyond its
+  /// limits, too many samples).
   double last_valid = 0.0;
   /// The fraction of the first sample that collides or around which the motion is not proven free. Under
   /// MotionQuery::Valid: the first such sample that the check found, which need not be the first of the motion. 1 if
-  /// the motion is valid.
+  /// the motion is valid; 0 if it is invalid as a whole.
   double first_invalid = 0.0;
-  /// The colliding pair at `first_invalid`; kNoPair if the motion is valid, or if no sample collides but the motion is
-  /// not proven free.
+  /// The colliding pair at `first_invalid`; kNoPair if the motion is valid or invalid as a whole, or if no sample
+  /// collides but the motion is not proven free.
   BodyPair colliding = kNoPair;
   /// True: MotionCheckerOptions::max_checks ended the checks of this motion too early. The motion is not valid, but its
   /// free part may be longer than `last_valid`.
@@ -62,9 +64,9 @@ struct MotionVerdict
 
 enum class MotionQuery
 {
-  Valid,      ///< is the motion valid? The check ends at the first collision found; an invalid motion has last_valid 0
+  Valid,      ///< is the motion valid? The check ends at the first collision found
   LastValid,  ///< up to which fraction is the motion valid?
-  Samples     ///< checks the samples only, whatever the rule is
+  Samples     ///< as Valid, but checks the samples only, whatever the rule is
 };
 
 /// Checks straight motions in bulk. The samples of all motions are checked batch by batch: first the ends and middles,
@@ -76,7 +78,8 @@ enum class MotionQuery
 class MotionChecker
 {
  public:
-  /// `group`: as for StateChecker::check. Throws Error if a step is not a finite number above 0.
+  /// `robot`: that of the checker's scene. `group`: as for StateChecker::check, which reports an unknown group. Throws
+  /// Error if a step is not a finite number above 0.
   MotionChecker(std::shared_ptr<StateChecker> checker, std::shared_ptr<const RobotModel> robot, std::string group,
                 const MotionCheckerOptions& options = {});
 

@@ -10,8 +10,8 @@
 namespace gpu_planning_scene::core
 {
 /// The id of the world object that an octomap becomes, as in MoveIt. An object of this id has one cube per occupied
-/// leaf. It cannot be moved or attached, and other objects cannot have this id. Its entries in the allowed collision
-/// matrix and its colour stay when the octomap is removed.
+/// leaf. A change (applyChange) cannot move or attach it, and keeps its colour and its entries in the allowed collision
+/// matrix when it removes the octomap. Other objects cannot have this id.
 inline const std::string kOctomapId = "<octomap>";
 
 /// A serialised octree of liboctomap, as in octomap_msgs/Octomap.
@@ -25,8 +25,8 @@ struct SerializedOctree
 
 /// The occupied leaves of an octree at all depths, as cubes in the frame of the octree, in the order of the data. The
 /// occupancy of inner nodes is not used. Empty data have no leaves. Throws Error for data that are not an octree, and
-/// for more than `max_leaves` occupied leaves. Data that are not an octree use no more time and memory than an octree
-/// of the same size.
+/// for more than `max_leaves` occupied leaves (0 is a limit here). Data that are not an octree use no more time and
+/// memory than an octree of the same size.
 std::vector<PlacedShape> occupiedLeaves(const SerializedOctree& octree, std::size_t max_leaves);
 
 /// The octree whose occupied leaves are these cubes, in the binary form. Its resolution is the edge length of the

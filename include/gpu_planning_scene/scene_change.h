@@ -36,8 +36,8 @@ inline bool operator<(const StampedFrame& a, const StampedFrame& b)
   return std::tie(a.name, a.stamp) < std::tie(b.name, b.stamp);
 }
 
-/// A change of one object. The object kOctomapId can only be added and removed. It is no error to remove it from a
-/// scene without an octomap, and to remove all objects leaves it in the scene.
+/// A change of one object. The object kOctomapId can only be added and removed. Its removal from a scene without an
+/// octomap is not an error. A removal of all objects keeps it.
 struct ObjectChange
 {
   Operation operation = Operation::Add;
@@ -45,7 +45,8 @@ struct ObjectChange
   StampedFrame frame;  ///< see PlanningScene::frame
   /// Pose of the object in `frame`; no value: not set. Without a pose, a new object is placed at the origin of the
   /// frame. A new object with a single shape then takes the pose of this shape, and the shape moves to the object's
-  /// origin. An object that gets more shapes (Append) stays where it is.
+  /// origin. Move without a pose works in the same way. Append leaves an object of the world where it is. For an
+  /// attached object, Append makes a given pose the new pose of the object.
   std::optional<Eigen::Isometry3d> pose;
   std::vector<PlacedShape> shapes;             ///< in the object's frame: primitives, then meshes, then half-spaces
   std::vector<Eigen::Isometry3d> shape_poses;  ///< only for Move: none, or one per shape of the object, in that order
@@ -86,7 +87,8 @@ struct StateChange
 
 /// A full scene or a diff. The parts are applied in the order of the members, except that a full scene empties the
 /// world before it applies the state. In a diff, an empty part changes nothing. In a full scene, an empty part takes
-/// the value of a new scene. Exception: the variables of the state keep their values.
+/// the value of a new scene. Exceptions: the variables of the state keep their values; if StateChange::is_diff is true,
+/// links keep the objects that they carry.
 struct SceneChange
 {
   bool is_diff = false;

@@ -36,8 +36,8 @@ struct Reductions
 struct CheckerOptions
 {
   /// Metres, at least 0; 0: exact. Above 0, a pair may be reported as colliding if its distance is at most the required
-  /// distance plus this value, because traversal stops early: as soon as the boxes of two nodes prove such a distance.
-  /// A collision is never reported as free.
+  /// distance (see StateChecker) plus this value, because traversal stops early: as soon as the boxes of two nodes
+  /// prove such a distance. A collision is never reported as free.
   double tolerance = 0.0;
   Reductions reductions;
 };
@@ -59,12 +59,13 @@ struct JointNeighbourhood
 
 struct BatchResult
 {
-  std::vector<std::uint8_t> valid;   ///< one per state: 1 free, 0 in collision
-  std::vector<BodyPair> colliding;   ///< one per state: a colliding pair; kNoPair if the state is valid
-  std::uint64_t revision = 0;        ///< revision of the checked scene
-  double seconds = 0.0;              ///< wall time; shaders are usually compiled, and trees built, before the check
-  std::size_t undecided_states = 0;  ///< number of states that the CPU decided
-  double undecided_seconds = 0.0;    ///< part of `seconds` for deciding them
+  std::vector<std::uint8_t> valid;  ///< one per state: 1 free, 0 in collision
+  std::vector<BodyPair> colliding;  ///< one per state: a colliding pair; kNoPair if the state is valid
+  std::uint64_t revision = 0;       ///< revision of the checked scene
+  double seconds = 0.0;             ///< wall time; shaders are usually compiled, and trees built, before the check
+  /// Number of states that the GPU left undecided and the CPU then decided. 0 if the CPU checked the whole batch.
+  std::size_t undecided_states = 0;
+  double undecided_seconds = 0.0;  ///< part of `seconds` for deciding them
 
   /// Appends the result of the states that follow. Times and counts are added; the revision is that of `next`.
   void append(const BatchResult& next);
@@ -114,8 +115,11 @@ struct SceneReport
   std::vector<DecidedStates> decided;
 };
 
-/// Checks many robot states for collision at once. Implementations: BatchChecker (GPU) and CpuChecker. Thread-safe:
-/// calls are served one after the other.
+/// Checks many robot states for collision at once. Implementations: BatchChecker (GPU and CPU) and CpuChecker.
+/// Thread-safe: calls are served one after the other. Both throw DeviceLost if the device fails during a call.
+///
+/// A pair of bodies collides if its distance is at most its required distance. Between the robot and the world, this is
+/// the sum of the two paddings. Within the robot it is 0.
 class StateChecker
 {
  public:

@@ -23,7 +23,7 @@ struct Contact
   double depth = 0.0;      ///< penetration in metres; for padded pairs it includes the required distance
 };
 
-/// Clearance of a state, in metres beyond the required distance.
+/// Clearance of a state, in metres beyond the required distance (see StateChecker).
 struct Clearance
 {
   /// `world`: between the robot (with its attached objects) and the world objects. `self`: within the robot (with its

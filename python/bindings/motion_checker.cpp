@@ -19,7 +19,7 @@ using core::MotionCheckerOptions;
 using core::MotionQuery;
 using core::MotionVerdict;
 
-/// The answers of one call; the arrays of Python show its memory.
+/// The answers of one call; the arrays of Python are views of its memory.
 struct MotionVerdicts
 {
   std::vector<MotionVerdict> all;
@@ -107,8 +107,9 @@ MotionCheckerOptions motionOptionsFrom(const Arg<std::string>& rule, Arg<double>
 void addMotionChecker(py::module_& module)
 {
   const MotionCheckerOptions defaults;
-  py::class_<MotionVerdicts>(module, "MotionVerdicts",
-                             "The answers of MotionChecker.check, one for each motion. The arrays show its memory.")
+  py::class_<MotionVerdicts>(
+      module, "MotionVerdicts",
+      "The answers of MotionChecker.check, one for each motion. The arrays are views of its memory.")
       .def_property_readonly(
           "valid", [](const py::object& self) { return membersOf<bool>(self, &MotionVerdict::valid); },
           "True: the motion is valid. Shape (n,), bool.")
@@ -136,7 +137,9 @@ void addMotionChecker(py::module_& module)
       "its scene. group: as in StateChecker.check. rule: \"bound\" proves that a motion is free between its samples, "
       "too; \"samples\" checks only the samples, as MoveIt and OMPL do. resolution, translation_resolution: the "
       "largest step between samples, in radians and metres. max_samples: a motion that needs more samples is not "
-      "valid. max_checks: the largest number of state checks of one call; None: no limit.\n\nRaises Error for an "
+      "valid. max_checks: the largest number of state checks of one call; None: no limit. With \"bound\", a motion "
+      "with a "
+      "joint beyond its limits is not valid as a whole.\n\nRaises Error for an "
       "unknown group or rule and for a step that is not above 0.\n\n"
       "    motions = gps.MotionChecker(checker, rule=\"samples\")\n"
       "    print(motions.check(states[:-1], states[1:]).valid)")
@@ -156,8 +159,8 @@ void addMotionChecker(py::module_& module)
            py::arg("max_checks") = py::none())
       .def("check", &checkMotions, py::arg("starts"), py::arg("ends"), py::arg("query") = "valid",
            "Checks straight motions.\n\nstarts, ends: shape (n, variables) or (variables,), radians and metres, or "
-           "names of "
-           "states as in StateChecker.check. query: "
+           "names of states of the SRDF. Variables that a named start does not set have their values from the scene's "
+           "current_state; those that a named end does not set, from its start. query: "
            "\"valid\" ends at the first collision; \"last_valid\" also finds up to which fraction a motion is valid; "
            "\"samples\" uses the rule \"samples\". Returns MotionVerdicts.\n\nRaises Error for other shapes, for "
            "another number of ends, and for values that are not finite. Ctrl-C ends a long call.")

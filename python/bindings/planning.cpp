@@ -110,7 +110,7 @@ void addPlanning(py::module_& module)
       .value("APPROXIMATE", PlanningStatus::Approximate, "The path ends at the reached state nearest to a goal.")
       .value("NO_SOLUTION", PlanningStatus::NoSolution)
       .value("START_IN_COLLISION", PlanningStatus::StartInCollision)
-      .value("GOALS_IN_COLLISION", PlanningStatus::GoalsInCollision)
+      .value("GOAL_IN_COLLISION", PlanningStatus::GoalInCollision)
       .value("OUT_OF_BOUNDS", PlanningStatus::OutOfBounds);
   py::class_<PlanningResult>(module, "PlanningResult", "The answer of plan_motion.")
       .def_readonly("status", &PlanningResult::status)
@@ -120,7 +120,8 @@ void addPlanning(py::module_& module)
                              "straight motions between them are free by the motion rule.")
       .def_readonly("planning_seconds", &PlanningResult::planning_seconds)
       .def_readonly("simplification_seconds", &PlanningResult::simplification_seconds)
-      .def_readonly("checking_seconds", &PlanningResult::checking_seconds, "Part of the two times above.")
+      .def_readonly("checking_seconds", &PlanningResult::checking_seconds,
+                    "Seconds of the checker, within planning_seconds and simplification_seconds.")
       .def_readonly("states_checked", &PlanningResult::states_checked)
       .def_readonly("revision", &PlanningResult::revision, "PlanningScene.revision of the checked scene.");
   module.def(
@@ -135,9 +136,10 @@ void addPlanning(py::module_& module)
       "group keep their values from the start. seconds: for planning; "
       "simplification and the last check of the path come afterwards. simplify: shortens the path. rule, "
       "resolution, translation_resolution, max_samples: as in MotionChecker. parameters: of the planner, by "
-      "OMPL's names, for example {\"range\": 0.5}. seed: from 1 to 4294967295; the call repeats its path, unless "
-      "`seconds` are too short for it. With the parameter max_rounds instead of a short time, a search that "
-      "fails is repeated too. Calls with a seed wait for each other.\n\nReturns a PlanningResult: a motion that "
+      "OMPL's names, for example {\"range\": 0.5}. seed: from 1 to 4294967295; calls with the same seed "
+      "give the same path, unless `seconds` end a search or a proof. If the parameter max_rounds ends a search before "
+      "`seconds` do, a failure is the same each time too. Calls with a seed run one after the other.\n\nReturns a "
+      "PlanningResult: a motion that "
       "is not found is not an exception. Raises Error for an unknown group or parameter, for other shapes, and for "
       "values that "
       "are not finite. Ctrl-C ends the call. A checker serves one call after the other.\n\n"

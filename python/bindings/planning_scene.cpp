@@ -209,7 +209,10 @@ void addChanges(py::class_<PlanningScene, std::shared_ptr<PlanningScene>>& scene
           "without a state.")
       .def(
           "padding", [](PlanningScene& self, const Name& body) { return *paddingOf(self, body.value); },
-          py::arg("body"), "The padding of a link or an object in metres. Raises Error for an unknown body.")
+          py::arg("body"),
+          "The padding of a link or an object in metres; of an attached object, without the padding of its link. "
+          "Raises "
+          "Error for an unknown body.")
       .def(
           "set_padding",
           [](PlanningScene& self, const Name& body, Arg<double> padding)

@@ -69,16 +69,18 @@ py::array_t<std::uint8_t> render(const Arg<std::shared_ptr<PlanningScene>>& scen
 
 void addRender(py::module_& module)
 {
-  module.def("render", &render, py::arg("scene"), py::arg("state") = py::none(), py::arg("width") = 960,
-             py::arg("height") = 720, py::arg("eye") = py::none(), py::arg("target") = py::none(),
-             py::arg("up") = py::make_tuple(0.0, 0.0, 1.0), py::arg("device") = "auto",
-             "Draws the collision shapes of a scene with OpenGL, without a window: links grey, objects in colours, "
-             "bodies that collide red, contact points yellow.\n\nstate: shape (variables,), or the name of a state; "
-             "None: the current state of "
-             "the scene, or the default state of the robot. width, height: pixels. eye, target: of the camera, in the "
-             "planning frame; without an eye, the view shows most of each link and of the contacts. up: the upward "
-             "direction. device: as in StateChecker, but not \"cpu\".\n\nReturns an array of shape (height, width, 3), "
-             "uint8, red, green and blue, rows from the top. Raises Error if the size, the camera or the device cannot "
-             "be used.\n\n    matplotlib.pyplot.imsave(\"scene.png\", gps.render(scene))");
+  module.def(
+      "render", &render, py::arg("scene"), py::arg("state") = py::none(), py::arg("width") = 960,
+      py::arg("height") = 720, py::arg("eye") = py::none(), py::arg("target") = py::none(),
+      py::arg("up") = py::make_tuple(0.0, 0.0, 1.0), py::arg("device") = "auto",
+      "Draws the collision shapes of a scene with OpenGL, without a window: links grey, objects in colours, "
+      "bodies that collide red, contact points yellow.\n\nstate: shape (variables,), or the name of a state; "
+      "None: the current state of "
+      "the scene, or the default state of the robot. width, height: pixels. eye, target: of the camera, in metres in "
+      "the planning frame; without an eye, the view is chosen so that few parts of links and contacts are hidden. up: "
+      "the upward "
+      "direction. device: as in StateChecker, but not \"cpu\".\n\nReturns an array of shape (height, width, 3), "
+      "uint8, red, green and blue, rows from the top. Raises Error if the size, the camera or the device cannot "
+      "be used.\n\n    matplotlib.pyplot.imsave(\"scene.png\", gps.render(scene))");
 }
 }  // namespace gpu_planning_scene::python

@@ -311,7 +311,8 @@ void addRobotModel(py::module_& module)
       .def("random_states", &randomStates, py::arg("count"), py::arg("seed"), py::arg("base") = py::none(),
            py::arg("out") = py::none(), py::arg("moves_base") = false,
            "Random states within the joint limits, shape (count, variables).\n\nThe same seed gives the same states "
-           "as the tool check_states. base: a state of shape (variables,), by default default_state(). Planar and "
+           "as the tool check_states if base is the state of the scene. base: a state of shape (variables,), by "
+           "default default_state(). Planar and "
            "floating joints, such as a virtual joint, have its values. moves_base: these joints get random values "
            "too; base must not be given then. out: an array of float64 in the order of C, of the shape of the result, "
            "which gets the states and is returned. Ctrl-C ends a long call.\n\n"

@@ -12,7 +12,7 @@ void addSceneReport(py::module_& module)
   using core::DecidedStates;
   using core::SceneReport;
   py::class_<DecidedStates>(module, "DecidedStates", "The states that a stage of the CPU's checks has decided.")
-      .def_readonly("by", &DecidedStates::by, "The stage.")
+      .def_readonly("by", &DecidedStates::by, "The stage: see docs/architecture.md, \"How a batch flows\".")
       .def_readonly("states", &DecidedStates::states)
       .def_readonly("nanoseconds", &DecidedStates::nanoseconds,
                     "Mean time in this stage, over all states that entered the first stage; 0: not measured.");
@@ -45,8 +45,9 @@ void addSceneReport(py::module_& module)
       .def_readonly("triangles", &SceneReport::triangles, "In all trees.")
       .def_readonly("trees", &SceneReport::trees, "One per distinct shape.")
       .def_readonly("shared_trees", &SceneReport::shared_trees, "Shapes that use the tree of an equal shape.")
-      .def_readonly("cpu_below", &SceneReport::cpu_below,
-                    "The CPU checks batches of fewer states than this; None: there was no choice.")
+      .def_readonly(
+          "cpu_below", &SceneReport::cpu_below,
+          "The CPU checks batches of fewer states than this; 2**64 - 1: all batches. None: there was no choice.")
       .def_readonly("decided", &SceneReport::decided,
                     "The states that the CPU has checked, by the stage that decided them.");
 }

@@ -89,7 +89,8 @@ void addDevice(py::module_& module)
 
 void addBatchResult(py::module_& module)
 {
-  py::class_<BatchResult>(module, "BatchResult", "The answers of StateChecker.check. The arrays show its memory.")
+  py::class_<BatchResult>(module, "BatchResult",
+                          "The answers of StateChecker.check. The arrays are views of its memory.")
       .def_property_readonly(
           "valid",
           [](const py::object& self)
@@ -112,7 +113,9 @@ void addBatchResult(py::module_& module)
           "colliding pairs, any one may be reported.")
       .def_readonly("revision", &BatchResult::revision, "PlanningScene.revision of the checked scene.")
       .def_readonly("seconds", &BatchResult::seconds, "Wall time of the check, without the time of Python.")
-      .def_readonly("undecided_states", &BatchResult::undecided_states, "Number of states that the CPU decided.")
+      .def_readonly("undecided_states", &BatchResult::undecided_states,
+                    "Number of states that the GPU left undecided and the CPU then decided. 0 if the CPU checked the "
+                    "whole batch.")
       .def_readonly("undecided_seconds", &BatchResult::undecided_seconds, "Part of `seconds` for deciding them.")
       .def(
           "__len__", [](const BatchResult& result) { return result.valid.size(); });
@@ -218,7 +221,7 @@ void addStateChecker(py::module_& module)
       "\"cpu\" is the library's CpuChecker, which needs no OpenGL. All other values are its BatchChecker: \"auto\" "
       "takes "
       "the first hardware device, or software if there is none; \"software\"; an index of list_devices() as a str; a "
-      "part of a renderer's name. All devices give the same `valid`. "
+      "part of a renderer's name; several devices as \"0+1\"; all GPUs as \"all\". All devices give the same `valid`. "
       "tolerance: metres; 0: exact; above 0, bodies within this distance may be reported as colliding. max_batch: the "
       "most states that go to the GPU at once. cpu_below: the CPU checks batches of fewer states; None: the "
       "checker measures at which size the GPU becomes faster. traversal: \"work_queue\" or \"breadth_first\".\n\n"
@@ -231,15 +234,17 @@ void addStateChecker(py::module_& module)
       .def(py::init(&openedOnDevice), py::arg("scene"), py::arg("device") = defaults.device,
            py::arg("tolerance") = defaults.tolerance, py::arg("max_batch") = defaults.max_batch,
            py::arg("cpu_below") = py::none(), py::arg("traversal") = "work_queue")
-      .def("check", &checkStates, py::arg("states"), py::arg("group") = "",
-           "Checks states.\n\nstates: shape (n, variables) or (variables,), radians and metres; or a str or a list of "
-           "str: "
-           "names of states of the SRDF. Variables that a named state does not set have their values from the scene's "
-           "current_state. A C-contiguous array "
-           "of float64 is not copied; it must not change during the call. group: only pairs with a link that this "
-           "planning group moves are checked. Returns a BatchResult.\n\nRaises Error for another shape, an unknown "
-           "group, and values that are not finite. Ctrl-C ends a long call.\n\n"
-           "    free = states[checker.check(states).valid]")
+      .def(
+          "check", &checkStates, py::arg("states"), py::arg("group") = "",
+          "Checks states.\n\nstates: shape (n, variables) or (variables,), radians and metres; or a str or a list of "
+          "str: "
+          "names of states of the SRDF. Variables that a named state does not set have their values from the scene's "
+          "current_state. A C-contiguous array "
+          "of float64 is not copied; it must not change during the call. group: only pairs with a link that this "
+          "planning group moves are checked. Returns a BatchResult.\n\nRaises Error for another shape, an unknown "
+          "group, values that are not finite or too large, and a state that the SRDF does not name. Ctrl-C ends a long "
+          "call.\n\n"
+          "    free = states[checker.check(states).valid]")
       .def(
           "set_scene",
           [](SharedChecker& self, const Arg<ScenePtr>& scene)
@@ -248,7 +253,9 @@ void addStateChecker(py::module_& module)
             withoutLock([&] { self.setScene(std::move(copy)); });
           },
           py::arg("scene"),
-          "Replaces the scene by a copy of `scene`. Raises Error and keeps the old scene if the new one is not valid.")
+          "Replaces the scene by a copy of `scene`. Raises Error and keeps the old scene if the new one is not valid, "
+          "or if "
+          "its robot is not the RobotModel object checker.scene.robot.")
       .def_property_readonly(
           "scene", [](const SharedChecker& self) { return std::make_shared<PlanningScene>(*self.scene()); },
           "A copy of the scene that is checked.")

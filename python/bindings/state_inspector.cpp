@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t kFirstPart = 64;  // states, which keep all cores busy
 
-/// The clearances of one call; the arrays of Python show its memory.
+/// The clearances of one call; the arrays of Python are views of its memory.
 struct Clearances
 {
   std::vector<Clearance> all;
@@ -133,7 +133,9 @@ void addStateInspector(py::module_& module)
            py::arg("max_per_pair") = 0,
            "The contacts of the pairs that collide in a state: a list of Contact.\n\nstate: shape (variables,), or the "
            "name of a state. group: "
-           "as in StateChecker.check. max_per_pair: for each pair; 0: no limit. The deepest contact of each pair comes "
+           "as in StateChecker.check. max_contacts: the most contacts in all. max_per_pair: the most for each pair; 0: "
+           "no "
+           "limit. The deepest contact of each pair comes "
            "first. Raises Error for another shape, an unknown group, and values that are not finite.\n\n"
            "    for contact in inspector.contacts(state):\n        print(contact.point, contact.depth)")
       .def("clearances", &clearances, py::arg("states"), py::arg("group") = "",

@@ -370,7 +370,7 @@ class PlanningStatus:
     APPROXIMATE: PlanningStatus
     NO_SOLUTION: PlanningStatus
     START_IN_COLLISION: PlanningStatus
-    GOALS_IN_COLLISION: PlanningStatus
+    GOAL_IN_COLLISION: PlanningStatus
     OUT_OF_BOUNDS: PlanningStatus
     @property
     def name(self) -> str: ...

@@ -21,7 +21,7 @@ class DistanceQuery
   /// Whether nothing can change the result any more.
   bool isDone() const { return is_done_; }
 
-  /// No pair at this distance or farther away changes the result. Infinite if only the pair itself tells.
+  /// No pair at this distance or farther away changes the result. Infinite if the limit depends on the pair.
   double limit() const;
 
   /// Measures two shape instances.

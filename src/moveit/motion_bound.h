@@ -15,7 +15,7 @@ namespace gpu_planning_scene::detector
 ///   - a joint follows a continuous joint that passes half a turn
 ///   - a joint with several variables follows another joint
 ///   - a quaternion is not normalised
-///   - the product of two quaternions is negative: MoveIt turns the longer way at a changing speed
+///   - the dot product of the two quaternions is negative: MoveIt turns the longer way at a changing speed
 /// `instances`: placed as in the state `placed`.
 std::vector<double> displacementBounds(const moveit::core::RobotState& from, const moveit::core::RobotState& to,
                                        const moveit::core::RobotState& placed,

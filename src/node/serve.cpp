@@ -49,7 +49,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   const ResilientOptions resilience = resilienceFromParameters(own);
   const SceneLimits limits = sceneLimitsFromParameters(own);
   const PlanServiceOptions plan_options = planOptionsFromParameters(own);
-  const LinkOptions follow_options = followOptionsFromParameters(node, own);
+  const FollowOptions follow_options = followOptionsFromParameters(node, own);
   setMessageLimit(options.message_size);
 
   std::vector<std::string> warnings;

@@ -88,7 +88,7 @@ std::vector<Fault> faultsOf(const PlanningScene& scene, StateChecker& checker, c
       fault = outOfBounds(*scene.robot, space, row);
     if (fault.message.empty() && found.valid[i] == 0)
       fault = {
-          i == 0 ? PlanningStatus::StartInCollision : PlanningStatus::GoalsInCollision,
+          i == 0 ? PlanningStatus::StartInCollision : PlanningStatus::GoalInCollision,
           "in collision: " + scene.bodyName(found.colliding[i][0]) + " and " + scene.bodyName(found.colliding[i][1])};
   }
   return faults;

@@ -8,7 +8,7 @@
 namespace gpu_planning_scene::core
 {
 /// Planners cut long motions into segments. This function joins them: it replaces a run of several motions by one
-/// motion of the same length, if the validator finds this motion valid before `ptc` holds.
+/// motion of the same length, if the validator finds this motion valid before `ptc` returns true.
 void mergeCollinearSegments(ompl::geometric::PathGeometric& path, const MotionValidator& validator,
                             const ompl::base::PlannerTerminationCondition& ptc);
 }  // namespace gpu_planning_scene::core

@@ -29,11 +29,11 @@ class RrtSearch
                 std::size_t max_branches, double range, const ompl::base::PlannerTerminationCondition& ptc);
 
   /// Proves the paths through the meetings found so far, shortest first. Returns the first path that is proven before
-  /// `ptc` holds, or null. Invalid motions are removed from the trees. Motions without a verdict stay.
+  /// `ptc` returns true, or null. Invalid motions are removed from the trees. Motions without a verdict stay.
   Path provenPath(const MotionValidator& validator, const ompl::base::PlannerTerminationCondition& ptc);
 
-  /// The path to the vertex that is closest to the goal, up to its first motion that is not proven before `ptc` holds;
-  /// null if no motion is proven.
+  /// The path to the vertex that is closest to the goal, up to its first motion that is not proven before `ptc` returns
+  /// true; null if no motion is proven.
   Path approximatePath(const MotionValidator& validator, const ompl::base::PlannerTerminationCondition& ptc) const;
 
   void addTo(ompl::base::PlannerData& data) const;

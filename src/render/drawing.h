@@ -19,7 +19,7 @@ constexpr BodyColor kCollidingColor{224, 45, 45, 255};        // links and attac
 constexpr BodyColor kCollidingObjectColor{138, 16, 30, 255};  // objects; darker, so that the robot stands out
 constexpr BodyColor kContactColor{255, 221, 0, 255};
 
-/// The contacts of a pair of bodies that are drawn. More of them merge on the screen.
+/// At most this many contacts of a pair of bodies are drawn. More would merge on the screen.
 constexpr std::size_t kMaxContactsOfPair = 5;
 
 /// The colour of a body that does not collide: its colour in the scene (object_colors) if it has one, else a default.

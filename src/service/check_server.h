@@ -23,7 +23,7 @@ struct CheckServerOptions
   std::size_t max_waiting_requests = 64;     ///< in each queue
   std::size_t max_waiting_states = 4000000;  ///< in each queue; one request always fits
   std::size_t max_states = 1000000;          ///< in one request
-  /// The most states that are checked at once. Fewer are if so many would take longer than 0.5 s.
+  /// The most states that are checked at once. The server takes fewer if so many would take longer than 0.5 s.
   std::size_t max_batch_states = kLargestSlice;
 };
 
@@ -80,8 +80,8 @@ class CheckQueue;
 /// MotionRule::Bound, it may need more checks than samples (MotionCheckerOptions::max_samples). Other small requests
 /// wait until all these checks are made. A request with a large matrix or with another scene than the newest counts as
 /// large, because a checker needs much time to take over such a matrix or scene. A queue takes the store's newest scene
-/// when it starts a batch. So each answer belongs to one snapshot, which is at least as new as the store's snapshot at
-/// the arrival of the request, or which the request brought along.
+/// when it starts a batch. So each answer belongs to one snapshot: that of the request if it has one, otherwise one
+/// that is no older than the request.
 class CheckServer
 {
  public:

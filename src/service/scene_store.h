@@ -37,17 +37,20 @@ struct Snapshot
   /// The oldest stamp (nanoseconds) of the known values; 0: a known value has no stamp, or no value is known.
   std::int64_t stamp = 0;
 
-  /// The virtual joint counts as known if `base` has values.
+  /// Whether all variables are known. The virtual joint counts as known if `base` has values.
   bool allKnown() const;
-  /// The virtual joint counts as known: without a value, the robot stands at the origin of the planning frame.
+  /// The state with the variables that are known. The virtual joint always counts as known: without a value, the robot
+  /// stands at the origin of the planning frame.
   PartialState partialState() const;
   /// A warning if this pose of the robot is only assumed and `given` does not set the virtual joint; otherwise empty.
   std::string assumedBase(const std::vector<int>& given) const;
 };
 
-/// Takes out the values of variables that are not known, for example of a base that only the BaseSource knows.
+/// Removes from `change` the values of variables that are not known, for example of a base that only the BaseSource
+/// knows.
 void dropUnknown(const Snapshot& now, SceneChange& change);
-/// Takes out the values of variables that are measured (Snapshot::measured). A followed node may know older values.
+/// Removes from `change` the values of measured variables (Snapshot::measured), because a followed node may have older
+/// ones.
 void dropMeasured(const Snapshot& now, SceneChange& change);
 
 /// The scene of a running service. A change is made completely or not at all. Thread-safe; readers never wait for a
@@ -100,9 +103,9 @@ class SceneStore
   /// shapes. Those that at() has returned lately are kept longest.
   void forgetReplaced(std::chrono::steady_clock::time_point time);
 
-  /// Removes all objects and attached objects with their entries in the allowed collision matrix, and all colours.
-  /// Warns of each body that an entry forbade to touch an object, if the default of the body allows it to touch a new
-  /// object of the same name.
+  /// Removes all objects and attached objects with their entries in the allowed collision matrix, and all colours. The
+  /// entries of the octomap stay. Warns if a removed entry forbade a contact that the default of the other body allows
+  /// with a new object of that name.
   Applied clear();
 
   /// Sets the robot's variables, by name; names that the robot lacks are ignored. The revision stays the same. If a

@@ -14,7 +14,7 @@ namespace gpu_planning_scene::core
 /// The reason why a pair of links need not be checked, as named by MoveIt's Setup Assistant.
 enum class DisabledReason
 {
-  Adjacent,  ///< a joint joins them
+  Adjacent,  ///< see RobotModel::adjacentLinks
   Default,   ///< they collide in RobotModel::defaultState(), and in nearly every random state
   Always,    ///< they collide in nearly every random state
   Never      ///< they collide in no random state

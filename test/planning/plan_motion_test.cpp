@@ -182,7 +182,7 @@ TEST(PlanMotion, RepeatsAPathForASeed)
 TEST(PlanMotion, CountsTheLookAtStartAndGoals)
 {
   const PlanningResult result = plan<BatchRrtConnect>(kWall, query({-1.0, 0.0}, {{0.0, 0.0}, {0.05, 1.0}}));
-  EXPECT_EQ(result.status, PlanningStatus::GoalsInCollision);
+  EXPECT_EQ(result.status, PlanningStatus::GoalInCollision);
   EXPECT_EQ(result.message.find("goal 0 is in collision: "), 0U) << result.message;
   EXPECT_EQ(result.states_checked, 3U);
   EXPECT_GT(result.checking_seconds, 0.0);

@@ -74,7 +74,7 @@ class Planning(Case):
         status = gps.PlanningStatus
         for start, goal, expected, message in (
             (1.0, 0.0, status.START_IN_COLLISION, "wall"),
-            (0.0, 1.0, status.GOALS_IN_COLLISION, "wall"),
+            (0.0, 1.0, status.GOAL_IN_COLLISION, "wall"),
             (0.0, 11.0, status.OUT_OF_BOUNDS, "slide"),
         ):
             result = gps.plan_motion(checker, "all", [start], [goal])

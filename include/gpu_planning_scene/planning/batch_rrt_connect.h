@@ -39,18 +39,19 @@ class BatchRrtConnect : public ompl::base::Planner
   void setBranches(unsigned int branches);
   unsigned int getBranches() const { return branches_; }
 
-  /// solve() gives up after this many rounds, whatever time they take; 0: only the time limits the search. Without a
-  /// limit of time, a search that fails can also be repeated.
+  /// solve() gives up after this many rounds, whatever time they take; 0: only the time limits the search. If only the
+  /// rounds limit it, a search that fails gives the same result again with the same seed.
   void setMaxRounds(unsigned int rounds) { max_rounds_ = rounds; }
   unsigned int getMaxRounds() const { return max_rounds_; }
 
   /// Throws ompl::Exception if the space information has no gpu_planning_scene::core::MotionValidator.
   void setup() override;
   void clear() override;
-  /// Grows the trees until there is a solution or `ptc` holds; a second call continues with the same trees. `ptc` is
-  /// tested between batches of states. If the planner has found a solution when `ptc` holds, but has not proven it, it
-  /// takes more time for the proof: a tenth of the time so far, but at least 0.1 s and at most 1 s. If no solution is
-  /// proven, the planner takes the same time again to prove the path to the vertex closest to the goal.
+  /// Grows the trees until there is a solution or `ptc` returns true; a second call continues with the same trees.
+  /// `ptc` is tested between batches of states. If the planner has found a solution when `ptc` returns true, but has
+  /// not proven it, it takes more time for the proof: a tenth of the time so far, but at least 0.1 s and at most 1 s.
+  /// If no solution is proven, the planner takes the same time again to prove the path to the vertex closest to the
+  /// goal.
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
   void getPlannerData(ompl::base::PlannerData& data) const override;
 

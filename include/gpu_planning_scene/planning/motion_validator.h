@@ -26,8 +26,8 @@ class MotionValidator : public ompl::base::MotionValidator
   using Motion = std::pair<const ompl::base::State*, const ompl::base::State*>;
   using Termination = ompl::base::PlannerTerminationCondition;
 
-  /// `checker` holds `scene` already. Throws Error if the space of `information` is not a GroupStateSpace of the robot
-  /// of `scene`.
+  /// `scene`: that of the checker (StateChecker::setScene); this is not verified. Throws Error if the space of
+  /// `information` is not a GroupStateSpace of the robot of `scene`.
   MotionValidator(const ompl::base::SpaceInformationPtr& information, std::shared_ptr<const PlanningScene> scene,
                   std::shared_ptr<StateChecker> checker, const MotionCheckerOptions& options = {});
 
@@ -39,7 +39,7 @@ class MotionValidator : public ompl::base::MotionValidator
                    std::pair<ompl::base::State*, double>& last_valid) const override;
 
   /// Validates many motions in one call. Returns one byte per motion: 1 if the motion is valid, else 0. When `ptc`
-  /// holds, all motions without a verdict get 0.
+  /// returns true, all motions without a verdict get 0.
   std::vector<std::uint8_t> validateMotions(const std::vector<Motion>& motions, const Termination& ptc = never()) const;
   /// Checks only the samples of many motions in one call. Returns one byte per motion: 1 if all its samples are free,
   /// else 0. Planners that prove only the motions of a solution use this function: see MotionRule.

@@ -23,15 +23,16 @@ struct PlanningQuery
   std::vector<double> start;
   std::vector<std::vector<double>> goals;  ///< rows; the motion may end at any of them
   /// Seconds for planning, including the check of the start and the goals; planners can take slightly longer.
-  /// Simplification and the last check of the path follow. Each may take the remaining time, but at least a tenth of
-  /// `seconds` and at least 0.1 s.
+  /// Simplification and the last check of the path follow. Each may take the largest of these three: the time that
+  /// planning has left, a tenth of `seconds`, 0.1 s.
   double seconds = 5.0;
   bool simplify = true;
   MotionCheckerOptions motions;
   std::map<std::string, std::string> parameters = {};  ///< of the planner, by OMPL's names
   std::vector<std::string> projection = {};            ///< joints of the planner's projection; empty: the default
-  /// Above 0: OMPL's random numbers come from this seed. The call repeats its path if no time ended a search or a
-  /// proof, and if no other thread of the process creates generators of OMPL meanwhile. Such calls wait for each other.
+  /// Above 0: OMPL's random numbers come from this seed. Calls with the same seed give the same path, unless a time
+  /// limit ends a search or a proof, or another thread of the process creates generators of OMPL meanwhile. Calls with
+  /// a seed run one after the other.
   std::uint32_t seed = 0;
 };
 
@@ -42,8 +43,8 @@ enum class PlanningStatus
   /// No solution, and no path that ends nearer to a goal; or the planner's path is not valid by the rule.
   NoSolution,
   StartInCollision,
-  GoalsInCollision,  ///< no goal is valid (free and within bounds), and the first collides
-  OutOfBounds        ///< the start is out of bounds; or no goal is valid, and the first is out of bounds
+  GoalInCollision,  ///< no goal is valid (free and within bounds), and the first collides
+  OutOfBounds       ///< the start is out of bounds; or no goal is valid, and the first is out of bounds
 };
 
 struct PlanningResult
@@ -58,12 +59,14 @@ struct PlanningResult
   std::uint64_t revision = 0;  ///< of the checked scene
 };
 
-/// Plans a motion with the planner that `factory` creates. `checker` holds `scene` already. `stop` is called from time
+/// Plans a motion with the planner that `factory` creates. `scene`: that of the checker (StateChecker::setScene); this
+/// is not verified. `stop` is called from time
 /// to time; when it returns true, planning ends early, as soon as the planner reacts. Thread-safe if each call has a
 /// checker of its own.
 /// Throws Error for an unknown group, parameter or projection joint; for a row with a wrong length or a value that is
 /// not finite; for an angle of the start beyond 1e6 rad (continuous and planar joints); without a goal; and unless the
-/// time is above 0 and at most 1e9 s. Exceptions of the planner pass through.
+/// time is above 0 and at most 1e9 s; and as GroupStateSpace and MotionChecker do. Exceptions of the planner pass
+/// through.
 PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,
                           const PlannerFactory& factory, const std::function<bool()>& stop = {});

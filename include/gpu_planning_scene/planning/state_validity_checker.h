@@ -20,8 +20,8 @@ namespace gpu_planning_scene::core
 class StateValidityChecker : public ompl::base::StateValidityChecker
 {
  public:
-  /// `checker` holds `scene` already. Throws Error if the space of `information` is not a GroupStateSpace of the robot
-  /// of `scene`.
+  /// `scene`: that of the checker (StateChecker::setScene); this is not verified. Throws Error if the space of
+  /// `information` is not a GroupStateSpace of the robot of `scene`.
   StateValidityChecker(const ompl::base::SpaceInformationPtr& information, std::shared_ptr<const PlanningScene> scene,
                        std::shared_ptr<StateChecker> checker);
 

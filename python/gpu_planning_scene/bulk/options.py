@@ -50,14 +50,15 @@ def _add_inputs(parser: argparse.ArgumentParser) -> None:
     inputs.add_argument("--states", metavar="FILE", help=".npy: an array (n, variables); .csv: a line with the names "
                         "of variables, then a line for each state")
     inputs.add_argument("--random", type=_count, metavar="N", help="N random states within the joint limits; planar "
-                        "and floating joints stay where they are in the scene")
+                        "and floating joints have their values in the scene, or else their default values")
     inputs.add_argument("--plans", metavar="FILE", help=".npz with the arrays start and goal (n, variables): plans "
                         "motions instead of checking states")
-    parser.add_argument("--seed", type=_count_or_0, default=0, help="of random states and of plans (default 0)")
+    parser.add_argument("--seed", type=_count_or_0, default=0, help="seed of random states and of plans (default 0)")
     parser.add_argument("--random-base", action="store_true", help="random values of planar and floating joints too")
     parser.add_argument("--max-rounds", type=_count, default=PlanOptions.max_rounds, metavar="N",
                         help=f"rounds of the planner, after which a plan fails (default {PlanOptions.max_rounds})")
-    parser.add_argument("--rule", choices=("bound", "samples"), default="bound", help="of the motions of plans")
+    parser.add_argument("--rule", choices=("bound", "samples"), default="bound",
+                        help="for plans; bound: each motion is proven free between its samples too (default)")
 
 
 def _add_output(parser: argparse.ArgumentParser) -> None:
@@ -65,7 +66,8 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--shard", type=_count, metavar="N", help=f"states or problems in a file (default "
                         f"{STATES_PER_SHARD} states or {PROBLEMS_PER_SHARD} problems)")
     parser.add_argument("--with-states", action="store_true", help="write the states beside their verdicts")
-    parser.add_argument("--format", choices=("npy", "parquet"), default="npy", help="of verdicts (default npy)")
+    parser.add_argument("--format", choices=("npy", "parquet"), default="npy",
+                        help="file format of the verdicts (default npy)")
     shown = parser.add_mutually_exclusive_group()
     shown.add_argument("--progress", dest="progress", action="store_true", default=None,
                        help="show the progress also without a terminal")
@@ -73,7 +75,7 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_workers(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--scheduler", metavar="ADDRESS", help="of a Dask cluster, for example tcp://host:8786; "
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="scheduler of a Dask cluster, for example tcp://host:8786; "
                         "without it, the devices of this machine are used")
     parser.add_argument("--device", action="append", metavar="DEVICE", help="cpu, auto, software, an index or a part "
                         "of a name; several on this machine, one on a cluster (default: all GPUs, or auto)")

@@ -26,7 +26,7 @@ class Scene:
 
 
 class Job:
-    """What a run computes. Each shard belongs to one scene; shards count through the scenes."""
+    """What a run computes. Each shard belongs to one scene; the numbers of shards run on from scene to scene."""
 
     unit = ""  # what the source counts
 
@@ -124,7 +124,7 @@ class PlanJob(Job):
     def options(self) -> Dict[str, Any]:
         return {"kind": "plans", "statuses": {each.name: each.value for each in (
             gps.PlanningStatus.SOLVED, gps.PlanningStatus.NO_SOLUTION, gps.PlanningStatus.START_IN_COLLISION,
-            gps.PlanningStatus.GOALS_IN_COLLISION, gps.PlanningStatus.OUT_OF_BOUNDS)}}
+            gps.PlanningStatus.GOAL_IN_COLLISION, gps.PlanningStatus.OUT_OF_BOUNDS)}}
 
     def task(self, part: Any) -> work.Task:
         return work.PlanTask(part)

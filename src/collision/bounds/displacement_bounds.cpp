@@ -137,9 +137,9 @@ void DisplacementBounds::margins(const JointTravel* travel, double* margins) con
     for (std::size_t k = first_[i]; k < first_[i + 1]; ++k)
     {
       const JointTravel& joint = travel[levers_[k].joint];
-      sum += levers_[k].length * joint.length;
+      sum += levers_[k].per_metre * joint.length;
       if (joint.angle != 0.0)
-        sum += levers_[k].angle * joint.angle;
+        sum += levers_[k].per_radian * joint.angle;
     }
     margins[i] = sum == 0.0 ? 0.0 : std::min(kLargestMargin, withRounding(sum));
   }

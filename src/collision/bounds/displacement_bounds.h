@@ -28,13 +28,12 @@ struct Margins
   const double* of(std::size_t state) const { return values.data() + rows[state] * width; }
 };
 
-/// How far a joint moves the points of a body: at most `length` metres per metre of the joint's travel, and `angle`
-/// metres per radian.
+/// How far a joint moves the points of a body, at most.
 struct JointLever
 {
   int joint;
-  double length;
-  double angle;
+  double per_metre;   ///< metres per metre of the joint's travel
+  double per_radian;  ///< metres per radian of the joint's travel
 };
 
 /// The levers of a robot's instances. Computing them takes milliseconds, so they are kept for the next scene. One

@@ -24,8 +24,8 @@ struct DeviceHistory
 struct ResilientOptions
 {
   /// If a call takes longer than this, the device counts as hanging and is never used again. Batches must be small
-  /// enough to take far less time. The limit grows by the same amount for each million triangles of the scene, because
-  /// their trees are built within the call.
+  /// enough to take far less time. The limit of a scene is device_seconds * (1 + millions of triangles), because their
+  /// trees are built within the call.
   double device_seconds = 30.0;
   std::size_t max_losses = 3;  ///< after this many losses within loss_window seconds, the CPU answers
   double loss_window = 60.0;

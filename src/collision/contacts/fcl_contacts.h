@@ -37,7 +37,7 @@ constexpr std::size_t kMaxOfPair = 256;
 
 /// The contacts of two shapes that collide by the exact test; at least one, and at most `max_contacts`. FCL's contacts
 /// are used if FCL finds any. Otherwise there is exactly one contact, see StateInspector::contacts. `required` is the
-/// required distance of the pair; it counts as depth.
+/// required distance of the pair; the depths include it.
 std::vector<ShapeContact> contactsOf(const FclShape& a, const FclShape& b, double required, const CpuForest& forest,
                                      const CpuShapePair& exact, CpuShapePair::Scratch& scratch,
                                      std::size_t max_contacts = kMaxOfPair);

@@ -19,7 +19,7 @@ struct PlacedHalfSpace
   double offset;
 };
 
-/// Decides whether two placed shapes collide, as the contract defines it (see kSlack): primitives by their exact
+/// Decides whether two placed shapes collide, by the rule of kSlack (triangle_pair.h): primitives by their exact
 /// surfaces, meshes by their triangles and by the solids of their closed components. Distances are accurate to 1e-10 m
 /// for coordinates within a kilometre. The verdict of a pair does not depend on the trees.
 ///

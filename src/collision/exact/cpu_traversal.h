@@ -16,7 +16,7 @@
 namespace gpu_planning_scene::core
 {
 /// The exact checker. It decides one state at a time on the calling thread, in double precision, and in higher
-/// precision if double cannot decide. Its verdicts are canonical, see CpuShapePair.
+/// precision if double cannot decide. Its verdicts follow kSlack (triangle_pair.h).
 class CpuTraversal
 {
  public:

@@ -48,8 +48,8 @@ class GpuChecker
   /// Compiles the programs for batches with margins, if this has not been done, so that no check has to.
   void prepareMargins();
 
-  /// The largest magnitude of each variable of a state whose link poses the device can compute. Empty if a state needs
-  /// other tests too.
+  /// One value per variable. The device can compute the link poses of a state if no variable exceeds its value in
+  /// magnitude. Empty if this test does not suffice for the robot.
   std::vector<double> largestValues() const;
 
   /// Checks `count` states (rows of the robot's variables). Fills the result except for revision and seconds.

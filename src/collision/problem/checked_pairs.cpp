@@ -5,7 +5,8 @@
 #include "collision/problem/padding.h"
 
 // Each body has a row of the allowed collision matrix. All objects without an entry in the matrix share one look-up for
-// each body. Own method. The rules for attached objects are those of MoveIt.
+// each body. Own method. The rules for attached objects are those of MoveIt, with one exception: an attached object is
+// never checked against the link that carries it.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -17,8 +18,8 @@ bool mayTouch(const AttachedObject& attached, int link)
          std::find(attached.touch_links.begin(), attached.touch_links.end(), link) != attached.touch_links.end();
 }
 
-/// Whether a pair is never checked because of an attached object, as in MoveIt: an attached object with its link or one
-/// of its touch links, or two objects attached to the same link.
+/// Whether a pair is never checked because of an attached object: an attached object with its link or one of its touch
+/// links, or two objects attached to the same link.
 bool touchByCarrying(const RobotBody& a, const RobotBody& b)
 {
   if (a.attached && b.attached)

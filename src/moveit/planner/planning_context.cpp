@@ -68,7 +68,7 @@ std::int32_t codeOf(core::PlanningStatus status, bool in_time)
       return MoveItErrorCodes::SUCCESS;
     case core::PlanningStatus::StartInCollision:
       return MoveItErrorCodes::START_STATE_IN_COLLISION;
-    case core::PlanningStatus::GoalsInCollision:
+    case core::PlanningStatus::GoalInCollision:
       return MoveItErrorCodes::GOAL_IN_COLLISION;
     case core::PlanningStatus::OutOfBounds:  // goals are within their limits
       return MoveItErrorCodes::START_STATE_INVALID;

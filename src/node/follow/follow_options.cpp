@@ -4,9 +4,9 @@
 
 namespace gpu_planning_scene::core
 {
-LinkOptions followOptionsFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own)
+FollowOptions followOptionsFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own)
 {
-  LinkOptions options;
+  FollowOptions options;
   options.period = positiveParameter(own, "follow_period", options.period);
   options.timeout = positiveParameter(own, "follow_timeout", options.timeout);
   const std::string name = textParameter(own, "follow", "");

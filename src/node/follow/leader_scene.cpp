@@ -15,9 +15,9 @@ Eigen::Isometry3d noFrame(const StampedFrame& frame)
 }
 }  // namespace
 
-LeaderScene::LeaderScene(const ros::NodeHandle& node, ros::NodeHandle& timers, const LinkOptions& options,
+LeaderScene::LeaderScene(const ros::NodeHandle& node, ros::NodeHandle& timers, const FollowOptions& options,
                          std::uint64_t setup, SceneStore& store, SceneServices& changes)
-  : SceneLink(node, timers, options), setup_(setup), store_(store), changes_(changes)
+  : SceneFollower(node, timers, options), setup_(setup), store_(store), changes_(changes)
 {
   start();
 }

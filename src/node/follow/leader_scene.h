@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "node/follow/scene_link.h"
+#include "node/follow/scene_follower.h"
 #include "node/messages/messages.h"
 #include "node/scene/scene_services.h"
 
@@ -10,20 +10,20 @@ namespace gpu_planning_scene::core
 {
 /// Keeps the node's scene and its revision equal to those of another planning_scene_node, the leader. It fetches the
 /// whole scene once, and then makes the leader's changes. A change that does not begin at the node's revision shows
-/// that one is missing, and then the whole scene is fetched anew. So it is after the leader or a connection to it has
-/// ended. The last change before a pause can be missing too. So the revisions are compared periodically. Values of
-/// joints that the topic joint_states has brought are kept.
-class LeaderScene : private SceneLink<PlanningSceneMessage, GetPlanningScene>
+/// that one is missing. The whole scene is then fetched anew. It is also fetched anew after the leader or a connection
+/// to it has ended. If the last change is missing, no later change shows it, so the revisions are also compared from
+/// time to time. Values of joints that the topic joint_states has brought are kept.
+class LeaderScene : private SceneFollower<PlanningSceneMessage, GetPlanningScene>
 {
  public:
   /// `setup`: of this node, see setupFromParameters. All arguments passed by reference must outlive this object.
-  LeaderScene(const ros::NodeHandle& node, ros::NodeHandle& timers, const LinkOptions& options, std::uint64_t setup,
+  LeaderScene(const ros::NodeHandle& node, ros::NodeHandle& timers, const FollowOptions& options, std::uint64_t setup,
               SceneStore& store, SceneServices& changes);
   /// Calls stop().
   ~LeaderScene() override;
 
-  using SceneLink::fault;
-  using SceneLink::stop;
+  using SceneFollower::fault;
+  using SceneFollower::stop;
   /// The reason why the node's clients cannot change the scene.
   std::string changeFault() const;
 

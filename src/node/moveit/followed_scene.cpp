@@ -75,9 +75,9 @@ std::set<std::string> partsOf(const SceneChange& change)
   return parts;
 }
 
-FollowedScene::FollowedScene(const ros::NodeHandle& node, ros::NodeHandle& timers, const LinkOptions& options,
+FollowedScene::FollowedScene(const ros::NodeHandle& node, ros::NodeHandle& timers, const FollowOptions& options,
                              SceneStore& store, SceneServices& changes, SceneStore::Lookup lookup)
-  : SceneLink(node, timers, options), store_(store), changes_(changes), lookup_(std::move(lookup))
+  : SceneFollower(node, timers, options), store_(store), changes_(changes), lookup_(std::move(lookup))
 {
   start();
 }

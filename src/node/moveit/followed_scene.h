@@ -3,7 +3,7 @@
 #include <set>
 #include <string>
 
-#include "node/follow/scene_link.h"
+#include "node/follow/scene_follower.h"
 #include "node/moveit/moveit_messages.h"
 #include "node/scene/scene_services.h"
 
@@ -17,17 +17,17 @@ std::set<std::string> partsOf(const SceneChange& change);
 /// scenes. So the whole scene is also fetched anew periodically. If a periodic fetch brings a change that no message
 /// brings until the next fetch, a message was missed, and there is a warning. Values of joints that the topic
 /// joint_states has brought are kept.
-class FollowedScene : private SceneLink<MoveItScene, MoveItGetScene>
+class FollowedScene : private SceneFollower<MoveItScene, MoveItGetScene>
 {
  public:
   /// `timers`: the node handle for a timer. All arguments passed by reference must outlive this object.
-  FollowedScene(const ros::NodeHandle& node, ros::NodeHandle& timers, const LinkOptions& options, SceneStore& store,
+  FollowedScene(const ros::NodeHandle& node, ros::NodeHandle& timers, const FollowOptions& options, SceneStore& store,
                 SceneServices& changes, SceneStore::Lookup lookup);
   /// Calls stop().
   ~FollowedScene() override;
 
-  using SceneLink::fault;
-  using SceneLink::stop;
+  using SceneFollower::fault;
+  using SceneFollower::stop;
 
  private:
   MoveItGetScene::Request request() override;

@@ -11,7 +11,7 @@ MoveItOptions moveItOptionsFromParameters(const ros::NodeHandle& node, const ros
 {
   MoveItOptions options;
   options.names = flagParameter(own, "moveit_names", options.names);
-  LinkOptions& monitor = options.monitor;
+  FollowOptions& monitor = options.monitor;
   const std::string name = textParameter(own, "monitor", "");
   monitor.period = positiveParameter(own, "monitor_period", monitor.period);
   monitor.timeout = positiveParameter(own, "monitor_timeout", monitor.timeout);

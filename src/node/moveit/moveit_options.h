@@ -1,6 +1,6 @@
 #pragma once
 
-#include "node/follow/scene_link.h"
+#include "node/follow/scene_follower.h"
 
 namespace gpu_planning_scene::core
 {
@@ -8,7 +8,7 @@ struct MoveItOptions
 {
   /// How the node follows the scene of a move_group: ~monitor, ~monitor_service, ~monitor_period and ~monitor_timeout.
   /// `node` is empty if it follows none.
-  LinkOptions monitor;
+  FollowOptions monitor;
   bool names = false;  ///< whether the node has the services and topics of a move_group: ~moveit_names
 };
 

@@ -26,7 +26,7 @@ std::uint8_t statusOf(PlanningStatus status)
       return Response::NO_SOLUTION;
     case PlanningStatus::StartInCollision:
       return Response::START_IN_COLLISION;
-    case PlanningStatus::GoalsInCollision:
+    case PlanningStatus::GoalInCollision:
       return Response::GOAL_IN_COLLISION;
     case PlanningStatus::OutOfBounds:
       return Response::OUT_OF_BOUNDS;

@@ -17,7 +17,7 @@
 namespace gpu_planning_scene::core
 {
 /// The node whose scene is followed.
-struct LinkOptions
+struct FollowOptions
 {
   std::string node;      ///< full name
   std::string topic;     ///< full name of the topic with its changes
@@ -31,11 +31,11 @@ struct LinkOptions
 /// connections changes, a message cannot be applied, or the service does not answer. Then the whole scene is fetched
 /// anew. The derived class calls start() at the end of its constructor, and stop() in its destructor.
 template <class SceneMessage, class GetScene>
-class SceneLink
+class SceneFollower
 {
  public:
-  SceneLink(const SceneLink&) = delete;
-  SceneLink& operator=(const SceneLink&) = delete;
+  SceneFollower(const SceneFollower&) = delete;
+  SceneFollower& operator=(const SceneFollower&) = delete;
 
   /// The reason why the followed scene is not known now; empty if it is known. Thread-safe.
   std::string fault() const
@@ -49,8 +49,8 @@ class SceneLink
     return fault_;
   }
 
-  /// Drops the connection of a running fetch, which ends the fetch. Repeats it, because the fetch may be about to
-  /// connect.
+  /// Drops the connection of a running fetch, which ends the fetch. This is repeated until the thread ends, because the
+  /// fetch may be about to connect.
   void stop()
   {
     stopping_ = true;
@@ -72,13 +72,13 @@ class SceneLink
   using Response = typename GetScene::Response;
 
   /// `timers`: the node handle for a timer; it must outlive the link.
-  SceneLink(const ros::NodeHandle& node, ros::NodeHandle& timers, LinkOptions options)
+  SceneFollower(const ros::NodeHandle& node, ros::NodeHandle& timers, FollowOptions options)
     : options_(std::move(options)), node_(node), timers_(timers)
   {
     lose("it has not arrived yet; call again later");
     node_.setCallbackQueue(&queue_);
   }
-  virtual ~SceneLink() = default;
+  virtual ~SceneFollower() = default;
 
   void start()
   {
@@ -98,7 +98,7 @@ class SceneLink
   virtual void take(const Response& answer) = 0;
   virtual void apply(const SceneMessage& message) = 0;
 
-  const LinkOptions& options() const { return options_; }
+  const FollowOptions& options() const { return options_; }
   /// Whether the scene is known, and whether it has been known before. Only for the thread.
   bool isCurrent() const { return is_current_; }
   bool wasCurrent() const { return was_current_; }
@@ -294,7 +294,7 @@ class SceneLink
       client_.shutdown();
   }
 
-  const LinkOptions options_;
+  const FollowOptions options_;
   mutable ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   ros::NodeHandle& timers_;
