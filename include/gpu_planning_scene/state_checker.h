@@ -116,7 +116,7 @@ struct SceneReport
 };
 
 /// Checks many robot states for collision at once. Implementations: BatchChecker (GPU and CPU) and CpuChecker.
-/// Thread-safe: calls are served one after the other. Both throw DeviceLost if the device fails during a call.
+/// Thread-safe: calls are served one after the other. A BatchChecker throws DeviceLost if its device fails.
 ///
 /// A pair of bodies collides if its distance is at most its required distance. Between the robot and the world, this is
 /// the sum of the two paddings. Within the robot it is 0.

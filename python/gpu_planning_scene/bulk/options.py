@@ -75,7 +75,7 @@ def _add_output(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_workers(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--scheduler", metavar="ADDRESS", help="scheduler of a Dask cluster, for example tcp://host:8786; "
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="scheduler of a Dask cluster, e.g. tcp://host:8786; "
                         "without it, the devices of this machine are used")
     parser.add_argument("--device", action="append", metavar="DEVICE", help="cpu, auto, software, an index or a part "
                         "of a name; several on this machine, one on a cluster (default: all GPUs, or auto)")
