@@ -6,7 +6,7 @@
 namespace gpu_planning_scene::core
 {
 /// A wrong input, or a device that cannot be used. `what()` is one line: the fault, its place, and the remedy. A call
-/// that throws an Error has changed nothing. Exception: DeviceLost.
+/// that throws an Error has changed nothing. This does not hold for DeviceLost.
 class Error : public std::runtime_error
 {
  public:

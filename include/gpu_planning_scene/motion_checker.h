@@ -22,7 +22,7 @@ enum class MotionRule
   Samples,
   /// All samples are free, and the motion is proven free between them. Around each sample lies a segment that ends half
   /// way to the neighbouring samples. The proof: the clearance of the sample exceeds the displacement of every point of
-  /// the robot within this segment. A motion with a joint beyond its limits has no proof and is invalid as a whole.
+  /// the robot within this segment.
   Bound
 };
 
@@ -41,21 +41,22 @@ struct MotionCheckerOptions
   std::size_t max_checks = std::numeric_limits<std::size_t>::max();
 };
 
+/// A motion is invalid as a whole if it has more than MotionCheckerOptions::max_samples samples at the given steps, or,
+/// under MotionRule::Bound, if a joint of its start or end is beyond its limits. Both fractions are then 0.
 struct MotionVerdict
 {
   bool valid = false;
   /// Fraction of the motion, 0 to 1. Under MotionRule::Samples: the last free sample before the first collision. Under
   /// MotionRule::Bound: the motion is proven free up to this fraction. It is at most the fraction under
-  /// MotionRule::Samples. 1 if the motion is valid. 0 for every invalid motion unless the query is
-  /// MotionQuery::LastValid; with it, 0 if the start collides or the motion is invalid as a whole (a joint beyond its
-  /// limits, too many samples).
+  /// MotionRule::Samples. 1 if the motion is valid. Only MotionQuery::LastValid computes this fraction: with the other
+  /// queries, it is 0 for every invalid motion.
   double last_valid = 0.0;
   /// The fraction of the first sample that collides or around which the motion is not proven free. Under
   /// MotionQuery::Valid: the first such sample that the check found, which need not be the first of the motion. 1 if
-  /// the motion is valid; 0 if it is invalid as a whole.
+  /// the motion is valid.
   double first_invalid = 0.0;
-  /// The colliding pair at `first_invalid`; kNoPair if the motion is valid or invalid as a whole, or if no sample
-  /// collides but the motion is not proven free.
+  /// The colliding pair at `first_invalid`. kNoPair if the check found no sample that collides: the motion is valid, it
+  /// is not proven free, it is invalid as a whole, or its check ended early.
   BodyPair colliding = kNoPair;
   /// True: MotionCheckerOptions::max_checks ended the checks of this motion too early. The motion is not valid, but its
   /// free part may be longer than `last_valid`.

@@ -10,8 +10,9 @@
 namespace gpu_planning_scene::core
 {
 /// The id of the world object that an octomap becomes, as in MoveIt. An object of this id has one cube per occupied
-/// leaf. A change (applyChange) cannot move or attach it, and keeps its colour and its entries in the allowed collision
-/// matrix when it removes the octomap. Other objects cannot have this id.
+/// leaf. A change (applyChange) cannot move or attach it. If a change removes it, its colour and its entries in the
+/// allowed collision matrix stay. (A full scene replaces the colours and the matrix of the scene.) Other objects cannot
+/// have this id.
 inline const std::string kOctomapId = "<octomap>";
 
 /// A serialised octree of liboctomap, as in octomap_msgs/Octomap.

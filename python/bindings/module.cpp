@@ -11,7 +11,7 @@ void addErrors(pybind11::module_& module)
   auto& error = pybind11::register_exception<core::Error>(module, "Error", PyExc_RuntimeError);
   error.doc() =
       "A wrong input, or a device that cannot be used. The text is one line: the fault, its place, and the remedy. A "
-      "call that raises an Error has changed nothing. Exception: DeviceLost.";
+      "call that raises an Error has changed nothing. This does not hold for DeviceLost.";
   auto& lost = pybind11::register_exception<core::DeviceLost>(module, "DeviceLost", error);
   lost.doc() =
       "The device or its context is lost, or it failed in a way that no input causes. The object that raised this "

@@ -115,8 +115,9 @@ void addMotionChecker(py::module_& module)
           "True: the motion is valid. Shape (n,), bool.")
       .def_property_readonly(
           "last_valid", [](const py::object& self) { return membersOf<double>(self, &MotionVerdict::last_valid); },
-          "The fraction of the motion, 0 to 1, up to which it is valid. With the query \"valid\" it is 0 for each "
-          "motion that is not valid. Shape (n,).")
+          "The fraction of the motion, 0 to 1, up to which it is valid. Only the query \"last_valid\" computes it: "
+          "with "
+          "the other queries, it is 0 for each motion that is not valid. Shape (n,).")
       .def_property_readonly(
           "first_invalid",
           [](const py::object& self) { return membersOf<double>(self, &MotionVerdict::first_invalid); },
@@ -125,7 +126,8 @@ void addMotionChecker(py::module_& module)
       .def_property_readonly(
           "colliding",
           [](const py::object& self) { return membersOf<std::int32_t>(self, &MotionVerdict::colliding, 2); },
-          "The body indices of the colliding pair at first_invalid; -1, -1 if no sample collides. Shape (n, 2), int32.")
+          "The body indices of the colliding pair at first_invalid; -1, -1 if the check found no sample that collides. "
+          "Shape (n, 2), int32.")
       .def_property_readonly(
           "given_up", [](const py::object& self) { return membersOf<bool>(self, &MotionVerdict::given_up); },
           "True: max_checks ended the checks of this motion too early. Shape (n,), bool.")
@@ -138,8 +140,8 @@ void addMotionChecker(py::module_& module)
       "too; \"samples\" checks only the samples, as MoveIt and OMPL do. resolution, translation_resolution: the "
       "largest step between samples, in radians and metres. max_samples: a motion that needs more samples is not "
       "valid. max_checks: the largest number of state checks of one call; None: no limit. With \"bound\", a motion "
-      "with a "
-      "joint beyond its limits is not valid as a whole.\n\nRaises Error for an "
+      "is invalid, and both fractions are 0, if a joint of its start or end is beyond its limits.\n\nRaises Error for "
+      "an "
       "unknown group or rule and for a step that is not above 0.\n\n"
       "    motions = gps.MotionChecker(checker, rule=\"samples\")\n"
       "    print(motions.check(states[:-1], states[1:]).valid)")

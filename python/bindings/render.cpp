@@ -79,7 +79,8 @@ void addRender(py::module_& module)
       "the scene, or the default state of the robot. width, height: pixels. eye, target: of the camera, in metres in "
       "the planning frame; without an eye, the view is chosen so that few parts of links and contacts are hidden. up: "
       "the upward "
-      "direction. device: as in StateChecker, but not \"cpu\".\n\nReturns an array of shape (height, width, 3), "
+      "direction. device: as in StateChecker, but a single OpenGL device.\n\nReturns an array of shape (height, width, "
+      "3), "
       "uint8, red, green and blue, rows from the top. Raises Error if the size, the camera or the device cannot "
       "be used.\n\n    matplotlib.pyplot.imsave(\"scene.png\", gps.render(scene))");
 }

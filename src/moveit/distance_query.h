@@ -21,7 +21,8 @@ class DistanceQuery
   /// Whether nothing can change the result any more.
   bool isDone() const { return is_done_; }
 
-  /// No pair at this distance or farther away changes the result. Infinite if the limit depends on the pair.
+  /// No pair at this distance or farther away changes the result. The limit of a single pair can be smaller, see
+  /// limitOf().
   double limit() const;
 
   /// Measures two shape instances.

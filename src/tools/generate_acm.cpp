@@ -120,7 +120,7 @@ int main(int argc, char** argv)
       "generate_acm", "--urdf FILE [--srdf FILE] [--package NAME=DIR]... [options]",
       "Finds the pairs of a robot's links that need not be checked for collision, as MoveIt's Setup\n"
       "Assistant does, and writes them as disable_collisions of an SRDF, with one of these reasons:\n"
-      "  Adjacent  a joint joins the two links\n"
+      "  Adjacent  one is the nearest link with shapes above the other\n"
       "  Default   they collide in the default state and in nearly all of many random states\n"
       "  Always    they collide in nearly all of the random states, but not in the default state\n"
       "  Never     they collide in none of the random states\n"

@@ -24,7 +24,7 @@ std::string commentText(const GeneratedMatrix& matrix, const RobotModel& robot, 
   text.precision(2);
   text << kCommentStart << " for robot " << robot.name() << " from " << options.samples << " random states, seed "
        << options.seed
-       << ".\n    Adjacent: no link with shapes is between them in the tree of links. Always: they collide in at least "
+       << ".\n    Adjacent: one is the nearest link with shapes above the other. Always: they collide in at least "
        << 100.0 * options.always_share
        << " % of the states. Default: also in the\n    default state (every variable is 0, or in the middle of its "
        << "limits if 0 is outside). Never: they collide in none\n    of the states. So, with "

@@ -181,7 +181,7 @@ def print_work(scenes):
         ("fetches of texels", lambda s: number(s.a_state("fetches"))),
         ("loads; stores", lambda s: number(s.a_state("loads")) + "; " + number(s.a_state("stores"))),
         ("atomics", lambda s: number(s.a_state("atomics"))),
-        ("bytes of these; of their sectors", lambda s: number(s.a_state("bytes")) + "; " +
+        ("bytes of these accesses; bytes of their sectors", lambda s: number(s.a_state("bytes")) + "; " +
          number(SECTOR_BYTES * s.a_state("sectors"))),
         ("accesses to shared memory", lambda s: number(s.a_state("shared"))),
         ("busy invocations of a warp", busy),

@@ -165,18 +165,18 @@ TEST(PlanMotion, RepeatsAPathForASeed)
 {
   const std::vector<Wall> walls = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
   PlanningQuery wanted = query({-1.0, 0.0}, {{1.0, 0.0}});
-  const auto pathOf = [&](std::uint32_t seed)
+  const auto path_of = [&](std::uint32_t seed)
   {
     wanted.seed = seed;
     const PlanningResult result = plan<BatchRrtConnect>(walls, wanted);
     EXPECT_EQ(result.status, PlanningStatus::Solved);
     return result.waypoints;
   };
-  const auto path = pathOf(7);
-  EXPECT_NE(pathOf(8), path);
-  EXPECT_EQ(pathOf(7), path);
-  pathOf(0);
-  EXPECT_EQ(pathOf(7), path);
+  const auto path = path_of(7);
+  EXPECT_NE(path_of(8), path);
+  EXPECT_EQ(path_of(7), path);
+  path_of(0);
+  EXPECT_EQ(path_of(7), path);
 }
 
 TEST(PlanMotion, CountsTheLookAtStartAndGoals)

@@ -295,6 +295,19 @@ TEST_F(OctomapChanges, ReplacingAndClearingTheOctomapKeepsItsAllowedCollisions)
   EXPECT_TRUE(allowsCart());
 }
 
+/// For example a message on the topic ~planning_scene_world.
+TEST_F(OctomapChanges, ARemovalThatKeepsEntriesKeepsItsColourToo)
+{
+  allowCart();
+  change(octomap(1.0));
+  ObjectChange remove = objectChange(Operation::Remove, kOctomapId);
+  remove.keeps_allowed_collisions = true;
+  change(remove);
+  EXPECT_FALSE(hasOctomap());
+  EXPECT_TRUE(allowsCart());
+  EXPECT_EQ(1U, scene_.colors.count(kOctomapId));
+}
+
 /// As in MoveIt. A full scene replaces the octomap with the world.
 TEST_F(OctomapChanges, RemovingAllObjectsLeavesTheOctomap)
 {

@@ -40,7 +40,8 @@ class BatchRrtConnect : public ompl::base::Planner
   unsigned int getBranches() const { return branches_; }
 
   /// solve() gives up after this many rounds, whatever time they take; 0: only the time limits the search. If only the
-  /// rounds limit it, a search that fails gives the same result again with the same seed.
+  /// rounds limit it, a search that fails gives the same result again with the same seed, unless the time for its last
+  /// proofs ends (see solve()).
   void setMaxRounds(unsigned int rounds) { max_rounds_ = rounds; }
   unsigned int getMaxRounds() const { return max_rounds_; }
 

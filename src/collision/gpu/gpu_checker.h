@@ -49,7 +49,7 @@ class GpuChecker
   void prepareMargins();
 
   /// One value per variable. The device can compute the link poses of a state if no variable exceeds its value in
-  /// magnitude. Empty if this test does not suffice for the robot.
+  /// magnitude. Empty if this test does not suffice for the robot, or if the CPU computes the poses.
   std::vector<double> largestValues() const;
 
   /// Checks `count` states (rows of the robot's variables). Fills the result except for revision and seconds.

@@ -26,7 +26,7 @@ struct FollowOptions
   double timeout = 5.0;  ///< seconds: longest wait for the answer of the service
 };
 
-/// The link of the node to another node whose scene it follows. Its thread calls the service `GetScene`, and then takes
+/// Follows the scene of another node. Its thread calls the service `GetScene`, and then takes
 /// the messages of the topic. The scene counts as known from the first fetch on, until the publisher or one of the two
 /// connections changes, a message cannot be applied, or the service does not answer. Then the whole scene is fetched
 /// anew. The derived class calls start() at the end of its constructor, and stop() in its destructor.
@@ -71,7 +71,7 @@ class SceneFollower
   using Request = typename GetScene::Request;
   using Response = typename GetScene::Response;
 
-  /// `timers`: the node handle for a timer; it must outlive the link.
+  /// `timers`: the node handle for a timer; it must outlive this object.
   SceneFollower(const ros::NodeHandle& node, ros::NodeHandle& timers, FollowOptions options)
     : options_(std::move(options)), node_(node), timers_(timers)
   {

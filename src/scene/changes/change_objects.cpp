@@ -105,10 +105,10 @@ void SceneChanger::removeObject(const ObjectChange& change)
   if (objects_.find(id) != nullptr)
   {
     count_.remove(objects_.take(id).shapes);
-    if (change.keeps_allowed_collisions)
-      result_.scene.colors.erase(id);
-    else
+    if (!change.keeps_allowed_collisions)
       forget(id);
+    else if (id != kOctomapId)
+      result_.scene.colors.erase(id);
     return;
   }
   if (attached_here_.count(id) != 0 || id == kOctomapId)
