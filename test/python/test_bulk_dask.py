@@ -1,5 +1,6 @@
 """Bulk runs on a Dask cluster of worker processes: the same bytes as on this machine alone, workers that are killed,
 that hang or lie, scenes that travel once; and the functions on Dask arrays."""
+import asyncio
 import os
 import pathlib
 import shutil
@@ -24,6 +25,7 @@ import gpu_planning_scene as gps
 import gpu_planning_scene.dask as gps_dask
 from bulk_runs import ARM_OPTIONS, bulk, content, shards, started_bulk, wait_for_shards
 from gpu_planning_scene.bulk import RobotBundle, SceneBundle
+from gpu_planning_scene.bulk.cluster import DaskRunner
 from robots import ARM, ARM_SCENE, ROOT, Case, arm, arm_scene
 from test_document import programs
 
@@ -152,6 +154,19 @@ class Cluster(Case):
         status, line, warnings = bulk(*self.options(*options, "--out", self.out))
         self.assertEqual((0, ""), (status, warnings), line)
         return line
+
+    def test_of_errors_that_nobody_has_read_only_timeouts_are_not_reported(self):
+        async def forget(*errors):
+            runner = DaskRunner(self.cluster.scheduler_address, arm(), "cpu", None)
+            await runner.open()
+            for error in errors:
+                asyncio.get_running_loop().create_future().set_exception(error)
+            await runner.close()
+
+        with self.assertLogs("asyncio", "ERROR") as logged:
+            asyncio.run(forget(asyncio.TimeoutError(), ValueError("forgotten")))
+        self.assertEqual(1, len(logged.records), logged.output)
+        self.assertIn("forgotten", str(logged.records[0].exc_info[1]))
 
     def test_the_cluster_and_this_machine_write_the_same_bytes(self):
         run = ["--random", 4000, "--shard", 250, "--seed", 3]

@@ -7,7 +7,7 @@ import os
 import uuid
 import warnings
 from concurrent.futures import CancelledError
-from typing import Callable, Dict, Optional, Set, Union
+from typing import Any, Callable, Dict, Optional, Set, Union
 
 import distributed
 
@@ -39,6 +39,7 @@ class DaskRunner(Runner):
     async def open(self) -> None:
         # Bundles go through the scheduler only once, whatever their size.
         warnings.filterwarnings("ignore", message="Large object|Sending large graph")
+        asyncio.get_running_loop().set_exception_handler(_report_unread)
         try:
             self._client = await distributed.Client(self._address, asynchronous=True,
                                                      timeout=self._connect_seconds)
@@ -71,6 +72,13 @@ class DaskRunner(Runner):
             future = self._client.submit(_same, bundle, key=f"gpu_planning_scene-{bundle.digest}{again}")
             self._bundles[bundle.digest] = future
         return future
+
+
+def _report_unread(loop: asyncio.AbstractEventLoop, context: Dict[str, Any]) -> None:
+    """Reports an error that nobody has read, as asyncio does, but no time limit: when a Dask client is closed on a busy
+    machine, it forgets futures whose time is over."""
+    if not isinstance(context.get("exception"), asyncio.TimeoutError):
+        loop.default_exception_handler(context)
 
 
 def _same(bundle: Union[RobotBundle, SceneBundle]) -> Union[RobotBundle, SceneBundle]:
