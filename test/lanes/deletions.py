@@ -56,8 +56,6 @@ FUNCTION_OF = {
 }
 # A run that needs more processor time than this, in seconds, does not end. A run without a deletion needs a few seconds.
 MOST_SECONDS = 60
-# Families of `stability` for what the tasks do not find.
-FAMILIES = ["random rigid motions", "far", "sliver", "in or near a closed mesh", "primitive", "padding"]
 
 
 def limit_time(seeds):
@@ -146,24 +144,6 @@ class Runner:
             raise RuntimeError(f"{name} is wrong without a deletion: {self.undamaged[name, seed]}")
         return found
 
-    def families(self, shaders):
-        """The same for the hard cases of `stability`, if this program is built."""
-        program = os.path.join(self.programs, "stability")
-        if not os.path.exists(program):
-            return None
-        for seed in range(1, 4):
-            for family in FAMILIES:
-                process = subprocess.run(
-                    [program, "--shaders", shaders, "--family", family, "--cases", "4", "--proofs", "0", "--seed",
-                     str(seed)],
-                    env={**os.environ, "LD_PRELOAD": self.device, "GPS_LANES_SEED": str(seed)}, capture_output=True,
-                    text=True)
-                if process.returncode != 0:
-                    wrong = [line.strip() for line in process.stderr.split("\n")
-                             if "lanes:" in line or " is wrong in case" in line]
-                    return f"stability, {family}", str(seed), (wrong or [process.stderr.strip()[-200:]])[0]
-        return None
-
     def without_lines(self, path, texts, search):
         """`search` for shaders in which the lines of a file, the keys of `texts`, are replaced by its values."""
         with tempfile.TemporaryDirectory() as folder:
@@ -189,7 +169,7 @@ class Runner:
             if found or quick:
                 return found
             others = [name for name in FUNCTIONS if name not in own]
-            return tasks(shaders, others) or tasks(shaders, BATCHES) or self.families(shaders)
+            return tasks(shaders, others) or tasks(shaders, BATCHES)
 
         return self.without_lines(path, texts, search)
 

@@ -10,7 +10,8 @@
 #include "lanes/workloads.h"
 #include "shader_constants.h"
 
-// Tasks for the proofs of the device: states near contact that balls and joint tables decide, and two centres of balls.
+// Tasks for the proofs of the device: states near contact that balls and joint tables decide, and two centres of
+// balls.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -110,9 +111,13 @@ std::vector<std::string> checkProofs(const std::string& shaders, std::uint64_t s
 std::vector<std::string> checkBalls(const std::string& shaders, std::uint64_t seed)
 {
   constexpr std::size_t kPairs = 256;
+  constexpr std::size_t kTexels = 5;  // two centres, the reach beside the first one, and the axes of a box
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto vector = [&] { return Eigen::Vector3d(uniform(generator), uniform(generator), uniform(generator)); };
+  const auto texel = [](const Eigen::Vector3f& v, float w = 0.0F) {
+    return std::array<float, 4>{v.x(), v.y(), v.z(), w};
+  };
   std::vector<std::array<float, 4>> input;
   for (std::size_t i = 0; i < kPairs; ++i)
   {
@@ -123,8 +128,13 @@ std::vector<std::string> checkBalls(const std::string& shaders, std::uint64_t se
     const Eigen::Vector3f a = place.cast<float>();
     const Eigen::Vector3f b = (place + between).cast<float>();
     const auto reach = static_cast<float>((1.0 + share) * between.norm());
-    input.push_back({a.x(), a.y(), a.z(), reach});
-    input.push_back({b.x(), b.y(), b.z(), 0.0F});
+    input.push_back(texel(a, reach));
+    input.push_back(texel(b));
+    const Eigen::Matrix3d axes = Eigen::Quaterniond(uniform(generator), uniform(generator), uniform(generator), 1.5)
+                                     .normalized()
+                                     .toRotationMatrix();
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      input.push_back(texel(axes.col(axis).cast<float>()));
   }
   const Program program = Program::fromText(shaders, "balls", R"(// One invocation per pair of centres.
 #include "shader_constants.h"
@@ -142,9 +152,13 @@ layout(std430, binding = 1) writeonly buffer Results { uint results[]; };
 void main()
 {
   const uint i = invocationIndex();
-  const vec4 a = pairs[2u * i];
-  const vec3 b = pairs[2u * i + 1u].xyz;
-  results[i] = (pointsApart(a.xyz, b, a.w) ? 1u : 0u) + (pointsNear(a.xyz, b, a.w) ? 2u : 0u);
+  const vec4 a = pairs[5u * i];
+  const vec3 b = pairs[5u * i + 1u].xyz;
+  const mat3 axes = mat3(pairs[5u * i + 2u].xyz, pairs[5u * i + 3u].xyz, pairs[5u * i + 4u].xyz);
+  const OrientedNode point = OrientedNode(Box(a.xyz, vec3(0.0)), axes, 0u, 0u);
+  Instance none;
+  results[i] = (pointsApart(a.xyz, b, a.w) ? 1u : 0u) + (pointsNear(a.xyz, b, a.w) ? 2u : 0u) +
+               (centerBeyond(none, false, point, b, a.w) ? 4u : 0u);
 }
 )");
   Buffer pairs(input.size() * sizeof(input[0]));
@@ -159,10 +173,10 @@ void main()
   for (std::size_t i = 0; i < kPairs; ++i)
   {
     const auto point = [&](std::size_t k)
-    { return Eigen::Map<const Eigen::Vector3f>(input[2 * i + k].data()).cast<double>().eval(); };
+    { return Eigen::Map<const Eigen::Vector3f>(input[kTexels * i + k].data()).cast<double>().eval(); };
     const double distance = (point(1) - point(0)).norm();
-    const auto reach = static_cast<double>(input[2 * i][3]);
-    if (((found[i] & 1U) != 0 && !(distance > reach)) || ((found[i] & 2U) != 0 && !(distance < reach)))
+    const auto reach = static_cast<double>(input[kTexels * i][3]);
+    if (((found[i] & 5U) != 0 && !(distance > reach)) || ((found[i] & 2U) != 0 && !(distance < reach)))
       wrong.push_back("pair " + std::to_string(i) + ", at a distance of " + std::to_string(distance / reach) +
                       " times the reach: " + std::to_string(found[i]));
   }
