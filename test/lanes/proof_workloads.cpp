@@ -152,7 +152,7 @@ layout(std430, binding = 1) writeonly buffer Results { uint results[]; };
 void main()
 {
   const uint i = invocationIndex();
-  const vec4 a = pairs[5u * i];
+  const vec4 a = pairs[5u * i];  // kTexels
   const vec3 b = pairs[5u * i + 1u].xyz;
   const mat3 axes = mat3(pairs[5u * i + 2u].xyz, pairs[5u * i + 3u].xyz, pairs[5u * i + 4u].xyz);
   const OrientedNode point = OrientedNode(Box(a.xyz, vec3(0.0)), axes, 0u, 0u);

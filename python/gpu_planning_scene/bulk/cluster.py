@@ -75,9 +75,10 @@ class DaskRunner(Runner):
 
 
 def _report_unread(loop: asyncio.AbstractEventLoop, context: Dict[str, Any]) -> None:
-    """Reports an error that nobody has read, as asyncio does, but no time limit: when a Dask client is closed on a busy
-    machine, it forgets futures whose time is over."""
-    if not isinstance(context.get("exception"), asyncio.TimeoutError):
+    """Reports errors as asyncio does, except for a future that ended with a timeout and that nobody has read: a Dask
+    client that is closed on a busy machine leaves such futures behind."""
+    unread = context.get("message") == "Future exception was never retrieved"
+    if not (unread and isinstance(context.get("exception"), asyncio.TimeoutError)):
         loop.default_exception_handler(context)
 
 

@@ -206,7 +206,8 @@ std::array<Eigen::Vector3d, 2> StateInspector::Impl::nearestPoints(const Inspect
                                                                    const BodyPair& bodies, double clearance,
                                                                    const std::vector<Eigen::Isometry3d>& link_poses)
 {
-  // Triangles of a curved solid are off by their sagitta, on both sides: up to 1e-4 m, except for very large solids.
+  // Triangles of a curved solid are off by their sagitta, on both sides: up to 1e-4 m. It is larger for solids such as
+  // spheres with a radius above half a metre: then FCL's points may be refused, and the answer has none.
   constexpr double kTriangleTolerance = 3e-4;  // metres
   const CollisionProblem& problem = *group.problem;
   const ShapeInstance& a = problem.robot[pair[0]];
