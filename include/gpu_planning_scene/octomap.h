@@ -26,8 +26,8 @@ struct SerializedOctree
 
 /// The occupied leaves of an octree at all depths, as cubes in the frame of the octree, in the order of the data. The
 /// occupancy of inner nodes is not used. Empty data have no leaves. Throws Error for data that are not an octree, and
-/// for more than `max_leaves` occupied leaves (0 is a limit here). Data that are not an octree use no more time and
-/// memory than an octree of the same size.
+/// for more than `max_leaves` occupied leaves (0: for any occupied leaf). Data that are not an octree use no more time
+/// and memory than an octree of the same size.
 std::vector<PlacedShape> occupiedLeaves(const SerializedOctree& octree, std::size_t max_leaves);
 
 /// The octree whose occupied leaves are these cubes, in the binary form. Its resolution is the edge length of the

@@ -27,9 +27,9 @@ struct Variable
   bool bounded = false;  ///< the URDF gives limits
   double lower = 0.0;    ///< limits, or the range of random states of an unbounded variable
   double upper = 0.0;    ///< (see RobotModelOptions)
-  /// The largest allowed magnitude of this number in a state. Then no coordinate of a translation exceeds
-  /// kLargestLength, and no angle of a revolute or continuous joint exceeds 1e300, also of the joints that mimic this
-  /// one. For other numbers, it is the largest finite number.
+  /// The largest allowed magnitude of this number in a state. It keeps the coordinates of translations within
+  /// kLargestLength, and the angles of revolute and continuous joints within 1e300. This includes the joints that mimic
+  /// this one. For other numbers, it is the largest finite number.
   double largest = std::numeric_limits<double>::max();
 };
 

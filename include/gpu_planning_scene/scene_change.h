@@ -45,9 +45,9 @@ struct ObjectChange
   StampedFrame frame;  ///< see PlanningScene::frame
   /// Pose of the object in `frame`; no value: not set. Without a pose, a new object is placed at the origin of the
   /// frame. A new object with a single shape then takes the pose of this shape, and the shape moves to the object's
-  /// origin. Move without a pose places the object at the origin of the
-  /// frame; a single pose in shape_poses then becomes the pose of the object. Append leaves an object of the world
-  /// where it is. For an attached object, Append makes a given pose the new pose of the object.
+  /// origin. Move without a pose places the object at the origin of the frame; a single pose in shape_poses then
+  /// becomes the pose of the object. Append leaves an object of the world where it is. For an attached object, Append
+  /// makes a given pose the new pose of the object.
   std::optional<Eigen::Isometry3d> pose;
   std::vector<PlacedShape> shapes;             ///< in the object's frame: primitives, then meshes, then half-spaces
   std::vector<Eigen::Isometry3d> shape_poses;  ///< only for Move: none, or one per shape of the object, in that order

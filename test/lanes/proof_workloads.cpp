@@ -10,8 +10,8 @@
 #include "lanes/workloads.h"
 #include "shader_constants.h"
 
-// Tasks for the proofs of the device: states near contact that balls and joint tables decide, and two centres of
-// balls.
+// Tasks for the proofs of the device: states near contact that balls and joint tables decide, and the centres
+// of two balls.
 namespace gpu_planning_scene::core
 {
 namespace

@@ -60,13 +60,11 @@ struct PlanningResult
 };
 
 /// Plans a motion with the planner that `factory` creates. `scene`: that of the checker (StateChecker::setScene); this
-/// is not verified. `stop` is called from time
-/// to time; when it returns true, planning ends early, as soon as the planner reacts. Thread-safe if each call has a
-/// checker of its own.
-/// Throws Error for an unknown group, parameter or projection joint; for a row with a wrong length or a value that is
-/// not finite; for an angle of the start beyond 1e6 rad (continuous and planar joints); without a goal; and unless the
-/// time is above 0 and at most 1e9 s; and as GroupStateSpace and MotionChecker do. Exceptions of the planner pass
-/// through.
+/// is not verified. `stop` is called from time to time; when it returns true, planning ends early, as soon as the
+/// planner reacts. Thread-safe if each call has a checker of its own. Throws Error for an unknown group, parameter or
+/// projection joint; for a row with a wrong length or a value that is not finite; for an angle of the start beyond 1e6
+/// rad (continuous and planar joints); without a goal; and unless the time is above 0 and at most 1e9 s. Errors of
+/// GroupStateSpace and MotionChecker, and exceptions of the planner, pass through.
 PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,
                           const PlannerFactory& factory, const std::function<bool()>& stop = {});

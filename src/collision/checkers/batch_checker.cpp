@@ -29,12 +29,13 @@ struct BatchChecker::Impl
   bool areOrdinary(const double* states, std::size_t count, const std::string& group);
   void checkOnGpu(const double* states, std::size_t count, const std::string& group, BatchResult& result,
                   const Margins* margins, bool ordinary);
-  void check(const double* states, std::size_t count, const std::string& group, bool ordinary, BatchResult& result);
+  void checkStates(const double* states, std::size_t count, const std::string& group, bool ordinary,
+                   BatchResult& result);
   void checkAround(const double* states, std::size_t count, const std::string& group, const Margins& margins,
                    bool ordinary, BatchResult& result);
   BatchResult timedCheck(const double* states, std::size_t count, const std::string& group,
                          const JointNeighbourhood* around, bool ordinary);
-  std::size_t threshold(const std::string& group, const double* states, std::size_t count);
+  CpuOrGpu::Choice choose(const std::string& group, const double* states, std::size_t count);
 
   std::mutex mutex;
   CpuOrGpu cpu_or_gpu;
@@ -90,16 +91,12 @@ void BatchChecker::Impl::checkOnGpu(const double* states, std::size_t count, con
 }
 
 /// Sends the states for which the group's problem is not valid to the CPU; only the CPU can decide them.
-void BatchChecker::Impl::check(const double* states, std::size_t count, const std::string& group, bool ordinary,
-                               BatchResult& result)
+void BatchChecker::Impl::checkStates(const double* states, std::size_t count, const std::string& group, bool ordinary,
+                                     BatchResult& result)
 {
-  const CollisionProblem& problem = *on_cpu.problem(group);
-  if (count == 0 || problem.always_colliding)
-    return on_cpu.check(states, count, group, result);
-  if (count < threshold(group, states, count))
-    return on_cpu.check(states, count, group, result);
   if (ordinary)
     return checkOnGpu(states, count, group, result, nullptr, true);
+  const CollisionProblem& problem = *on_cpu.problem(group);
   std::vector<std::size_t> rows[2];  // [0]: states for the GPU, [1]: states for the CPU
   rows[1] = rowsWithout(count, [&](std::size_t row) { return isValidFor(problem, states + row * width()); });
   if (rows[1].empty())
@@ -135,8 +132,6 @@ void BatchChecker::Impl::check(const double* states, std::size_t count, const st
 void BatchChecker::Impl::checkAround(const double* states, std::size_t count, const std::string& group,
                                      const Margins& margins, bool ordinary, BatchResult& result)
 {
-  if (on_cpu.problem(group)->always_colliding || count < threshold(group, states, count))
-    return on_cpu.check(states, count, group, result, &margins);
   checkOnGpu(states, count, group, result, &margins, ordinary);
   for (std::size_t i = 0; i < count; ++i)
     if (margins.within[i] == 0)
@@ -146,14 +141,14 @@ void BatchChecker::Impl::checkAround(const double* states, std::size_t count, co
     }
 }
 
-std::size_t BatchChecker::Impl::threshold(const std::string& group, const double* states, std::size_t count)
+CpuOrGpu::Choice BatchChecker::Impl::choose(const std::string& group, const double* states, std::size_t count)
 {
   BatchResult unused;
   const CpuOrGpu::Checks checks{[&](const double* rows, std::size_t size) { on_cpu.check(rows, size, group, unused); },
                                 [&](const double* rows, std::size_t size)
                                 { checkOnGpu(rows, size, group, unused, nullptr, false); }};
-  return cpu_or_gpu.threshold(group, on_cpu.scene(), *on_cpu.problem(group), states, count, on_cpu.proofStage(group),
-                              checks);
+  return cpu_or_gpu.choose(group, on_cpu.scene(), *on_cpu.problem(group), states, count, on_cpu.proofStage(group),
+                           checks);
 }
 
 BatchChecker::BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
@@ -189,21 +184,23 @@ void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
 BatchResult BatchChecker::Impl::timedCheck(const double* states, std::size_t count, const std::string& group,
                                            const JointNeighbourhood* around, bool ordinary)
 {
-  if (count != 0 && !on_cpu.problem(group)->always_colliding)
-  {
-    const std::size_t on_gpu =
-        threshold(group, states, count);  // any measurement happens here, before the check is timed
-    if (around && count >= on_gpu)
-      gpu_checker.prepareMargins();
-  }
+  // Any measurement happens here, before the check is timed.
+  const bool is_for_cpu = count == 0 || choose(group, states, count).is_for_cpu;
+  if (around && !is_for_cpu)
+    gpu_checker.prepareMargins();
   work = {};
   BatchResult result;
   result.revision = on_cpu.scene()->revision;
   const auto start = std::chrono::steady_clock::now();
+  std::optional<Margins> margins;
   if (around)
-    checkAround(states, count, group, on_cpu.margins(*around, states, count, group), ordinary, result);
+    margins = on_cpu.margins(*around, states, count, group);
+  if (is_for_cpu)
+    on_cpu.check(states, count, group, result, margins ? &*margins : nullptr);
+  else if (margins)
+    checkAround(states, count, group, *margins, ordinary, result);
   else
-    check(states, count, group, ordinary, result);
+    checkStates(states, count, group, ordinary, result);
   result.seconds = secondsSince(start);
   on_cpu.countStates(work.states, group);
   return result;
@@ -238,8 +235,7 @@ SceneReport BatchChecker::report(const std::string& group)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
   SceneReport report = impl_->on_cpu.report(group);
-  if (!report.always_colliding)
-    report.cpu_below = impl_->threshold(group, nullptr, 0);
+  report.cpu_below = impl_->choose(group, nullptr, 0).threshold;
   return report;
 }
 

@@ -122,6 +122,16 @@ bool CpuOrGpu::Threshold::holdsFor(const std::shared_ptr<const PlanningScene>& o
   return secondsSince(measured_at) < std::min(pause, kLongestPause);
 }
 
+CpuOrGpu::Choice CpuOrGpu::choose(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
+                                  const CollisionProblem& problem, const double* states, std::size_t count,
+                                  ProofStage proofs, const Checks& checks)
+{
+  if (problem.always_colliding)
+    return {true, std::nullopt};
+  const std::size_t least = threshold(group, scene, problem, states, count, proofs, checks);
+  return {count < least, least};
+}
+
 std::size_t CpuOrGpu::threshold(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
                                 const CollisionProblem& problem, const double* states, std::size_t count,
                                 ProofStage proofs, const Checks& checks)

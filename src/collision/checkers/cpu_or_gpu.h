@@ -17,6 +17,9 @@ namespace gpu_planning_scene::core
 /// Decides whether a batch goes to the CPU or to the GPU. Small batches are faster on the CPU. Batches of at least a
 /// threshold go to the GPU. The threshold is fixed, or it is measured for each group with both checks and kept for a
 /// while. One caller at a time.
+///
+/// Two other reasons for the CPU: BatchChecker sends it the single states for which the problem is not valid, and
+/// ResilientChecker all batches while the device is lost.
 class CpuOrGpu
 {
  public:
@@ -28,16 +31,22 @@ class CpuOrGpu
     Check gpu;
   };
 
+  struct Choice
+  {
+    bool is_for_cpu;
+    /// Batches of at least this many states go to the GPU. No value: every state collides, so no batch does.
+    std::optional<std::size_t> threshold;
+  };
+
   /// fixed: the threshold of all groups; unset: the threshold is measured.
   explicit CpuOrGpu(std::optional<std::size_t> fixed) : fixed_(fixed) {}
 
-  /// The threshold of the group: batches of at least this many states go to the GPU. `states`: the current batch. A
-  /// measurement uses these states if there are enough of them, else random states. `proofs`: the proofs that the CPU's
-  /// check has. If it has more than at the last measurement, the CPU has become faster, and the threshold is measured
-  /// again.
-  std::size_t threshold(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
-                        const CollisionProblem& problem, const double* states, std::size_t count, ProofStage proofs,
-                        const Checks& checks);
+  /// `states`: the batch. A measurement uses these states if there are enough of them, else random states. `proofs`:
+  /// the proofs that the CPU's check has. If it has more than at the last measurement, the CPU has become faster, and
+  /// the threshold is measured again.
+  Choice choose(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
+                const CollisionProblem& problem, const double* states, std::size_t count, ProofStage proofs,
+                const Checks& checks);
 
   /// Forgets all measurements. A new robot may have groups of the same names.
   void forget() { thresholds_.clear(); }
@@ -55,6 +64,10 @@ class CpuOrGpu
 
     bool holdsFor(const std::shared_ptr<const PlanningScene>& other, std::size_t other_pairs) const;
   };
+
+  std::size_t threshold(const std::string& group, const std::shared_ptr<const PlanningScene>& scene,
+                        const CollisionProblem& problem, const double* states, std::size_t count, ProofStage proofs,
+                        const Checks& checks);
 
   std::optional<std::size_t> fixed_;
   std::map<std::string, Threshold> thresholds_;

@@ -26,10 +26,10 @@ struct FollowOptions
   double timeout = 5.0;  ///< seconds: longest wait for the answer of the service
 };
 
-/// Follows the scene of another node. Its thread calls the service `GetScene`, and then takes
-/// the messages of the topic. The scene counts as known from the first fetch on, until the publisher or one of the two
-/// connections changes, a message cannot be applied, or the service does not answer. Then the whole scene is fetched
-/// anew. The derived class calls start() at the end of its constructor, and stop() in its destructor.
+/// Follows the scene of another node. Its thread calls the service `GetScene`, and then takes the messages of the
+/// topic. The scene counts as known from the first fetch on, until the publisher or one of the two connections changes,
+/// a message cannot be applied, or the service does not answer. Then the whole scene is fetched anew. The derived class
+/// calls start() at the end of its constructor, and stop() in its destructor.
 template <class SceneMessage, class GetScene>
 class SceneFollower
 {

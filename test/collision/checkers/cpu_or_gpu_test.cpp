@@ -132,7 +132,7 @@ class Choice : public testing::Test
                                   [&](const double*, std::size_t) { wait(gpu_seconds_); }};
     CollisionProblem problem;
     problem.self_pairs.resize(pairs_);
-    return choice_.threshold("", scene_, problem, nullptr, 0, proofs, checks);
+    return choice_.choose("", scene_, problem, nullptr, 0, proofs, checks).threshold.value();
   }
 
   CpuOrGpu choice_{std::nullopt};
@@ -142,6 +142,21 @@ class Choice : public testing::Test
   int runs_ = 0;
   std::shared_ptr<const PlanningScene> scene_ = std::make_shared<PlanningScene>(robotOf(boxLink("a")));
 };
+
+TEST(ChoiceOfDevice, FollowsTheFixedThresholdUnlessEveryStateCollides)
+{
+  CpuOrGpu choice(10);
+  const auto scene = std::make_shared<PlanningScene>(robotOf(boxLink("a")));
+  CollisionProblem problem;
+  const auto is_for_cpu = [&](std::size_t count)
+  { return choice.choose("", scene, problem, nullptr, count, ProofStage::None, {}).is_for_cpu; };
+  EXPECT_TRUE(is_for_cpu(9));
+  EXPECT_FALSE(is_for_cpu(10));
+  EXPECT_EQ(choice.choose("", scene, problem, nullptr, 10, ProofStage::None, {}).threshold, std::size_t{10});
+  problem.always_colliding = BodyPair{0, 1};
+  EXPECT_TRUE(is_for_cpu(10));
+  EXPECT_FALSE(choice.choose("", scene, problem, nullptr, 10, ProofStage::None, {}).threshold);
+}
 
 TEST_F(Choice, IsMeasuredAnewOnceThereAreMoreProofs)
 {
