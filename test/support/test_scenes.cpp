@@ -85,10 +85,11 @@ std::vector<double> goalOf(const std::string& request_file, const RobotModel& ro
 /// collide in every state.
 std::shared_ptr<const RobotModel> loadWithGeneratedSrdf(const RealRobot& robot)
 {
-  SamplingOptions sampling;
-  sampling.samples = 2000;
+  GeneratorOptions generator;
+  generator.samples = 2000;
+  generator.proof_tests = 0;  // proofs of all pairs take minutes with sanitizers
   const auto bare = robot.load();
-  const std::string srdf = srdfWith(generateMatrix(bare, sampling), *bare, sampling, "");
+  const std::string srdf = srdfWith(generateMatrix(bare, generator), *bare, generator, "");
   RobotModelOptions options;
   options.packages = packageResolver(robot.packages);
   options.urdf_folder = std::filesystem::path(robot.urdf).parent_path();
