@@ -159,9 +159,7 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   /// two groups give a variable different values or the state has no variable.
   NamedState namedState(const std::string& name) const;
 
-  /// Pairs of adjacent links, sorted: a link with shapes and its nearest ancestor with shapes, if the joints between
-  /// them are fixed except for at most one. This one is revolute, continuous or prismatic, and may mimic another joint.
-  /// More joints, and a planar or floating joint, let the two links meet anywhere, so they are not adjacent.
+  /// Adjacent links, sorted: a link and its nearest ancestor with shapes, at most one degree of freedom between them.
   std::vector<std::pair<int, int>> adjacentLinks() const;
 
   /// Forward kinematics: writes the pose of every link in the planning frame. `state`: variables().size() values.

@@ -1,7 +1,7 @@
 #include "tools/acm_generator.h"
 
 #include <algorithm>
-#include <atomic>
+#include <map>
 #include <mutex>
 #include <set>
 
@@ -267,7 +267,7 @@ GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const Ge
       if (at_default)
         builder.matrix().colliding_in_default_state.emplace_back(pair[0], pair[1]);
       else if (hit == hits.end())
-        ++builder.matrix().unproven_pairs;
+        builder.matrix().unproven.emplace_back(pair[0], pair[1]);
     }
   }
   return std::move(builder.matrix());

@@ -66,7 +66,8 @@ struct GeneratedMatrix
   /// GeneratorOptions::drop_checked, they are in `disabled` as well.
   std::vector<DisabledPair> checked_by_srdf;
   std::vector<CheckedLinks> no_longer_disabled;  ///< the robot's SRDF disables them, without a reason of the user's own
-  std::size_t unproven_pairs = 0;   ///< checked: no random state collides, but nothing proves that no state does
+  /// Checked: no random state collides, but nothing proves that no state does. The Setup Assistant disables them.
+  std::vector<std::pair<int, int>> unproven;
   std::size_t remaining_pairs = 0;  ///< pairs of links with collision shapes that must be checked
 };
 

@@ -137,8 +137,8 @@ void printSummary(const GeneratedMatrix& matrix, const GeneratorOptions& options
                                [&](const DisabledPair& pair) { return pair.reason == reason; })
               << " " << nameOf(reason);
   std::cerr << "\npairs that remain to be checked: " << matrix.remaining_pairs;
-  if (matrix.unproven_pairs != 0)
-    std::cerr << "; " << matrix.unproven_pairs << " of them collide in no random state, which proves nothing";
+  if (!matrix.unproven.empty())
+    std::cerr << "; " << matrix.unproven.size() << " of them collide in no random state, which proves nothing";
   std::cerr << "\nplanning groups: " << (groups.empty() ? "none" : nameList(groups)) << "\n";
 }
 

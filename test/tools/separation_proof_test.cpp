@@ -7,6 +7,7 @@
 
 #include "collision/bounds/problem_maker.h"
 #include "collision/exact/forest_cache.h"
+#include "gpu_planning_scene/error.h"
 #include "model/model_testing.h"
 #include "tools/separation_proof.h"
 
