@@ -82,8 +82,8 @@ const Group& RobotModel::group(const std::string& name) const
 }
 
 /// Adjacent links touch at the joint between them, so their collisions say nothing. This holds for one revolute,
-/// continuous or prismatic joint, also if it mimics another one. Several joints, a planar joint and a floating joint let
-/// two links meet elsewhere too.
+/// continuous or prismatic joint, also if it mimics another one. Several joints, a planar joint and a floating joint
+/// let two links meet elsewhere too.
 std::vector<std::pair<int, int>> RobotModel::adjacentLinks() const
 {
   /// The nearest link with shapes, upwards from a link itself, and the degrees of freedom between the two.
