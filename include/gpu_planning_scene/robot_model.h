@@ -159,7 +159,7 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   /// two groups give a variable different values or the state has no variable.
   NamedState namedState(const std::string& name) const;
 
-  /// Pairs of adjacent links, sorted: each link with shapes, and its nearest ancestor with shapes.
+  /// Adjacent links, sorted: a link and its nearest ancestor with shapes, at most one degree of freedom between them.
   std::vector<std::pair<int, int>> adjacentLinks() const;
 
   /// Forward kinematics: writes the pose of every link in the planning frame. `state`: variables().size() values.

@@ -48,11 +48,17 @@ PackageResolver packagesFrom(const CommandLine& arguments)
 
 std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, std::vector<std::string>* warnings)
 {
+  return robotFrom(arguments, arguments.value("--srdf", ""), warnings);
+}
+
+std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, const std::string& srdf,
+                                            std::vector<std::string>* warnings)
+{
   RobotModelOptions options;
   options.packages = packagesFrom(arguments);
   options.unbounded_translation = arguments.number("--unbounded-translation", options.unbounded_translation, 0.0, 1e6);
   options.info = [](const std::string& line) { std::cerr << line << "\n"; };
-  return RobotModel::fromFiles(arguments.required("--urdf"), arguments.value("--srdf", ""), options, warnings);
+  return RobotModel::fromFiles(arguments.required("--urdf"), srdf, options, warnings);
 }
 
 BatchCheckerOptions checkerOptionsFrom(const CommandLine& arguments)

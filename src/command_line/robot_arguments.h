@@ -20,6 +20,9 @@ std::vector<Option> deviceOptions();
 /// Resolves packages by the NAME=DIR of each --package, then by ROS_PACKAGE_PATH.
 PackageResolver packagesFrom(const CommandLine& arguments);
 std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, std::vector<std::string>* warnings);
+/// The same with the SRDF `srdf` in place of --srdf; empty: none.
+std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, const std::string& srdf,
+                                            std::vector<std::string>* warnings);
 BatchCheckerOptions checkerOptionsFrom(const CommandLine& arguments);
 
 /// Prints the warnings to stderr, one per line.

@@ -81,18 +81,31 @@ const Group& RobotModel::group(const std::string& name) const
               (names.empty() ? "it has no groups (groups come from an SRDF)" : "its groups: " + names));
 }
 
+/// Adjacent links touch at the joint between them, so their collisions say nothing. This holds for one revolute,
+/// continuous or prismatic joint, also if it mimics another one. Several joints, a planar joint and a floating joint
+/// let two links meet elsewhere too.
 std::vector<std::pair<int, int>> RobotModel::adjacentLinks() const
 {
+  /// The nearest link with shapes, upwards from a link itself, and the degrees of freedom between the two.
+  struct Nearest
+  {
+    int link = -1;  // -1: none
+    int freedoms = 0;
+  };
   std::vector<std::pair<int, int>> pairs;
-  std::vector<int> nearest(links_.size());  // the nearest link with shapes, upwards from the link itself; -1: none
+  std::vector<Nearest> nearest(links_.size());
   for (std::size_t i = 0; i < links_.size(); ++i)
   {
     const int link = static_cast<int>(i);
-    const int parent = links_[i].parent_joint < 0 ? -1 : joints_[links_[i].parent_joint].parent_link;
-    const int ancestor = parent < 0 ? -1 : nearest[parent];
-    nearest[i] = links_[i].shapes.empty() ? ancestor : link;
-    if (nearest[i] == link && ancestor >= 0)
-      pairs.emplace_back(ancestor, link);
+    Nearest above;
+    if (const int joint = links_[i].parent_joint; joint >= 0 && joints_[joint].parent_link >= 0)
+    {
+      above = nearest[joints_[joint].parent_link];
+      above.freedoms += variableCount(joints_[joint].type);
+    }
+    nearest[i] = links_[i].shapes.empty() ? above : Nearest{link, 0};
+    if (nearest[i].link == link && above.link >= 0 && above.freedoms <= 1)
+      pairs.emplace_back(above.link, link);
   }
   std::sort(pairs.begin(), pairs.end());
   return pairs;

@@ -61,6 +61,24 @@ std::string withoutLeadingSlash(const std::string& frame)
   return !frame.empty() && frame[0] == '/' ? frame.substr(1) : frame;
 }
 
+bool isPlanningFrame(const RobotModel& robot, const std::string& frame)
+{
+  if (withoutLeadingSlash(frame) == withoutLeadingSlash(robot.planningFrame()))
+    return true;
+  int link = std::max(robot.linkIndex(frame), robot.linkIndex(withoutLeadingSlash(frame)));
+  if (link < 0)
+    return false;
+  while (link >= 0 && robot.links()[static_cast<std::size_t>(link)].parent_joint >= 0)
+  {
+    const Joint& joint =
+        robot.joints()[static_cast<std::size_t>(robot.links()[static_cast<std::size_t>(link)].parent_joint)];
+    if (joint.type != JointType::Fixed || joint.origin.matrix() != Eigen::Matrix4d::Identity())
+      return false;
+    link = joint.parent_link;
+  }
+  return true;
+}
+
 std::optional<std::string> fixedFrameName(const std::string& frame_id, const std::string& child_frame_id,
                                           const std::string& planning_frame)
 {

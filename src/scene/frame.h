@@ -40,6 +40,10 @@ std::string withoutLeadingSlash(const std::string& frame);
 std::optional<std::string> fixedFrameName(const std::string& frame_id, const std::string& child_frame_id,
                                           const std::string& planning_frame);
 
+/// Whether a frame coincides with the planning frame in all states: it has its name, or is a link that fixed joints
+/// without an offset connect to it, such as the root link under a fixed virtual joint.
+bool isPlanningFrame(const RobotModel& robot, const std::string& frame);
+
 /// The names that PlanningScene::frame knows, without slashes that may precede them.
 std::vector<std::string> frameNames(const PlanningScene& scene);
 

@@ -29,7 +29,8 @@ Shape primitiveOf(PrimitiveType type, const std::vector<double>& dimensions);
 /// The half-space behind the plane a x + b y + c z + d = 0.
 HalfSpace halfSpaceBehind(const Eigen::Vector4d& plane);
 
-/// The values of a planar or floating joint's variables for which its child is at `pose` in the joint's frame.
+/// The values of a planar or floating joint's variables for which its child is at `pose` in the joint's frame: the
+/// frame of the parent link, moved by the joint's origin.
 std::vector<double> variablesAt(const Joint& joint, const Eigen::Isometry3d& pose);
 /// The inverse of variablesAt. The quaternion must not have length 0.
 Eigen::Isometry3d poseOfVariables(const Joint& joint, const double* values);

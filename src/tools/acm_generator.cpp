@@ -2,23 +2,23 @@
 
 #include <algorithm>
 #include <map>
+#include <mutex>
 #include <set>
 
-#include "collision/bounds/problem_maker.h"
+#include "collision/bounds/reach.h"
 #include "collision/exact/forest_cache.h"
 #include "collision/parallel_for.h"
-#include "collision/problem/collision_problem.h"
+#include "tools/pair_sampler.h"
 #include "tools/progress_bar.h"
+#include "tools/separation_proof.h"
 
 // Counts in random states how often each pair of links collides, as MoveIt's Setup Assistant does (D. Coleman, I.
 // Sucan, S. Chitta, N. Correll: Reducing the Barrier to Entry of Complex Robotic Software: a MoveIt! Case Study, 2014).
-// Pairs that are adjacent or collide in the default state are decided first and not sampled.
+// The Assistant disables each pair that collides in no random state; here, such a pair also needs a proof.
 namespace gpu_planning_scene::core
 {
 namespace
 {
-using HitCounts = std::map<BodyPair, std::size_t>;
-
 constexpr DisabledReason kReasons[] = {DisabledReason::Adjacent, DisabledReason::Default, DisabledReason::Always,
                                        DisabledReason::Never};
 
@@ -27,49 +27,101 @@ BodyPair ordered(int first, int second)
   return {std::min(first, second), std::max(first, second)};
 }
 
-/// Counts for each pair of links in how many states it collides. A StateChecker reports only one pair per state, so
-/// this class uses the exact checker's traversal, which finds all pairs.
-class PairSampler
+std::set<BodyPair> adjacentPairs(const RobotModel& robot)
 {
- public:
-  /// Leaves out the pairs that `decided` allows. `trees` keeps the trees of the links for the next sampler.
-  PairSampler(std::shared_ptr<const RobotModel> robot, const AllowedCollisionMatrix& decided, ForestCache& trees)
-    : robot_(std::move(robot))
-  {
-    PlanningScene scene(robot_);
-    scene.allowed_collisions = decided;
-    traversal_ = trees.traversalOf(std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr)));
-  }
+  std::set<BodyPair> pairs;
+  for (const auto& [first, second] : robot.adjacentLinks())
+    pairs.insert(ordered(first, second));
+  return pairs;
+}
 
-  void add(const std::vector<double>& states, std::size_t count, HitCounts& counts) const
-  {
-    const std::size_t width = robot_->variables().size();
-    std::vector<std::vector<BodyPair>> hits(count);
-    parallelFor(count, 16,
-                [&, scratch = CpuTraversal::Scratch(), poses = std::vector<Eigen::Isometry3d>(robot_->links().size())](
-                    std::size_t begin, std::size_t end) mutable
+/// Pairs that the SRDF enables, or disables by default or for a reason of the user's own.
+std::set<BodyPair> usersPairs(const RobotModel& robot)
+{
+  const SrdfCollisions& srdf = robot.srdfCollisions();
+  std::set<BodyPair> pairs;
+  for (const LinkPair& pair : srdf.enabled)
+    pairs.insert(ordered(pair.first, pair.second));
+  for (const LinkPair& pair : srdf.disabled)
+    if (isUsersReason(pair.reason))
+      pairs.insert(ordered(pair.first, pair.second));
+  AllowedCollisionMatrix defaults;
+  for (const int link : srdf.disabled_by_default)
+    defaults.setDefault(robot.links()[static_cast<std::size_t>(link)].name, true);
+  for (const int link : srdf.disabled_by_default)
+    for (int other = 0; other < static_cast<int>(robot.links().size()); ++other)
+      if (other != link && defaults.allowed(robot.links()[static_cast<std::size_t>(link)].name,
+                                            robot.links()[static_cast<std::size_t>(other)].name))
+        pairs.insert(ordered(link, other));
+  return pairs;
+}
+
+/// The pairs of links with collision shapes, ascending.
+std::vector<BodyPair> pairsOf(const RobotModel& robot)
+{
+  std::vector<BodyPair> pairs;
+  const int links = static_cast<int>(robot.links().size());
+  for (int first = 0; first < links; ++first)
+    for (int second = first + 1; second < links; ++second)
+      if (!robot.links()[static_cast<std::size_t>(first)].shapes.empty() &&
+          !robot.links()[static_cast<std::size_t>(second)].shapes.empty())
+        pairs.push_back({first, second});
+  return pairs;
+}
+
+/// The pairs of `candidates` that Reach proves apart.
+std::set<BodyPair> provenByReach(const RobotModel& robot, const std::vector<BodyPair>& candidates)
+{
+  const Reach reach(robot);
+  std::vector<SweptBody> swept;
+  for (std::size_t link = 0; link < robot.links().size(); ++link)
+    swept.push_back(reach.sweep(robot.links()[link].shapes, Eigen::Isometry3d::Identity(), static_cast<int>(link)));
+  std::set<BodyPair> proven;
+  for (const BodyPair& pair : candidates)
+    if (!reach.mayMeet(swept[static_cast<std::size_t>(pair[0])], swept[static_cast<std::size_t>(pair[1])], 0.0))
+      proven.insert(pair);
+  return proven;
+}
+
+/// The pairs of the sampler, except those of `hits`, that SeparationProver proves apart, on all cores.
+std::set<BodyPair> provenByJointRanges(const std::shared_ptr<const RobotModel>& robot, const PairSampler& sampler,
+                                       const std::shared_ptr<const CpuForest>& forest, const HitCounts& hits,
+                                       std::size_t most_tests)
+{
+  std::map<BodyPair, std::vector<InstancePair>> instances;
+  for (const InstancePair& pair : sampler.problem().self_pairs)
+    if (const BodyPair links = bodiesOf(sampler.problem(), pair); hits.count(links) == 0)
+      instances[links].push_back(pair);
+  const std::vector<std::pair<BodyPair, std::vector<InstancePair>>> candidates(instances.begin(), instances.end());
+  std::set<BodyPair> proven;
+  std::size_t done = 0;
+  std::mutex mutex;  // guards `proven`, `done` and the progress bar
+  ProgressBar progress("proving pairs apart", candidates.size());
+  parallelFor(candidates.size(), 1,
+              [&](std::size_t begin, std::size_t end)
+              {
+                SeparationProver prover(robot, sampler.problem(), forest);
+                for (std::size_t i = begin; i < end; ++i)
                 {
-                  for (std::size_t i = begin; i < end; ++i)
-                  {
-                    robot_->linkPoses(states.data() + i * width, poses.data());
-                    hits[i] = traversal_->allCollisions(poses.data(), scratch);
-                  }
-                });
-    for (const auto& pairs : hits)
-      for (const BodyPair& pair : pairs)
-        ++counts[ordered(pair[0], pair[1])];
-  }
-
- private:
-  std::shared_ptr<const RobotModel> robot_;
-  std::unique_ptr<const CpuTraversal> traversal_;
-};
+                  const auto& [links, pairs] = candidates[i];
+                  const bool apart = std::all_of(pairs.begin(), pairs.end(),
+                                                 [&, count = pairs.size()](const InstancePair& pair) {
+                                                   return prover.prove(pair, most_tests / count) == Separation::Apart;
+                                                 });
+                  const std::lock_guard<std::mutex> lock(mutex);
+                  if (apart)
+                    proven.insert(links);
+                  progress.update(++done);
+                }
+              });
+  return proven;
+}
 
 constexpr std::size_t kStatesAtOnce = 1024;
 
 /// Counts in random states. `first` checks the first kStatesAtOnce of them, `others` the others.
 HitCounts countInRandomStates(const RobotModel& robot, const PairSampler& first, const PairSampler& others,
-                              const SamplingOptions& options)
+                              const GeneratorOptions& options)
 {
   const std::size_t width = robot.variables().size();
   HitCounts counts;
@@ -88,17 +140,52 @@ HitCounts countInRandomStates(const RobotModel& robot, const PairSampler& first,
   return counts;
 }
 
-/// Pairs that the SRDF enables, or disables for a reason of the user's own.
-std::set<BodyPair> usersPairs(const SrdfCollisions& srdf)
+/// Takes the decided pairs, with regard to the matrix of the robot's SRDF.
+class MatrixBuilder
 {
-  std::set<BodyPair> pairs;
-  for (const LinkPair& pair : srdf.enabled)
-    pairs.insert(ordered(pair.first, pair.second));
-  for (const LinkPair& pair : srdf.disabled)
-    if (isUsersReason(pair.reason))
-      pairs.insert(ordered(pair.first, pair.second));
-  return pairs;
-}
+ public:
+  MatrixBuilder(const RobotModel& robot, bool drop_checked)
+    : robot_(robot),
+      old_(AllowedCollisionMatrix::fromRobot(robot)),
+      // An SRDF without disabled pairs has only groups and states. Nobody has decided which pairs to check.
+      has_old_(!robot.srdfCollisions().disabled.empty() || !robot.srdfCollisions().disabled_by_default.empty()),
+      drop_checked_(drop_checked)
+  {
+  }
+
+  void disable(const DisabledPair& pair)
+  {
+    const bool checked_before = has_old_ && !isDisabledBefore(pair.first, pair.second);
+    if (checked_before)
+      matrix_.checked_by_srdf.push_back(pair);
+    if (checked_before && !drop_checked_)
+      ++matrix_.remaining_pairs;
+    else
+      matrix_.disabled.push_back(pair);
+  }
+
+  void check(const BodyPair& pair, double colliding_share)
+  {
+    ++matrix_.remaining_pairs;
+    if (has_old_ && isDisabledBefore(pair[0], pair[1]))
+      matrix_.no_longer_disabled.push_back({pair[0], pair[1], colliding_share});
+  }
+
+  GeneratedMatrix& matrix() { return matrix_; }
+
+ private:
+  bool isDisabledBefore(int first, int second) const
+  {
+    return old_.allowed(robot_.links()[static_cast<std::size_t>(first)].name,
+                        robot_.links()[static_cast<std::size_t>(second)].name);
+  }
+
+  const RobotModel& robot_;
+  AllowedCollisionMatrix old_;
+  bool has_old_;
+  bool drop_checked_;
+  GeneratedMatrix matrix_;
+};
 }  // namespace
 
 const char* nameOf(DisabledReason reason)
@@ -123,59 +210,66 @@ bool isUsersReason(const std::string& reason)
       std::begin(kReasons), std::end(kReasons), [&](DisabledReason r) { return reason == nameOf(r); });
 }
 
-GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const SamplingOptions& options)
+GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const GeneratorOptions& options)
 {
-  const auto adjacent_links = robot->adjacentLinks();
-  const std::set<std::pair<int, int>> adjacent(adjacent_links.begin(), adjacent_links.end());
-  const std::set<BodyPair> users = usersPairs(robot->srdfCollisions());
+  const std::set<BodyPair> adjacent = adjacentPairs(*robot);
+  const std::set<BodyPair> users = usersPairs(*robot);
+  const std::vector<BodyPair> pairs = pairsOf(*robot);
+  const std::set<BodyPair> unreachable = provenByReach(*robot, pairs);
   // Random states are checked for undecided pairs only: links that always touch take most of the time.
   AllowedCollisionMatrix decided;
-  const auto decide = [&](int first, int second)
-  { decided.setEntry(robot->links()[first].name, robot->links()[second].name, true); };
-  for (const auto& [first, second] : adjacent)
-    decide(first, second);
-  for (const auto& [first, second] : users)
-    decide(first, second);
+  const auto decide = [&](const BodyPair& pair)
+  {
+    decided.setEntry(robot->links()[static_cast<std::size_t>(pair[0])].name,
+                     robot->links()[static_cast<std::size_t>(pair[1])].name, true);
+  };
+  for (const std::set<BodyPair>* known : {&adjacent, &users, &unreachable})
+    std::for_each(known->begin(), known->end(), decide);
   ForestCache trees;
   HitCounts in_default_state;
   const PairSampler undecided(robot, decided, trees);
   undecided.add(robot->defaultState(), 1, in_default_state);
   for (const auto& [pair, count] : in_default_state)
-    decide(pair[0], pair[1]);
-  const HitCounts hits = countInRandomStates(*robot, undecided, PairSampler(robot, decided, trees), options);
-  const double always = options.always_share * static_cast<double>(options.samples);
+    decide(pair);
+  const PairSampler others(robot, decided, trees);
+  const HitCounts hits = countInRandomStates(*robot, undecided, others, options);
+  const std::set<BodyPair> separated = provenByJointRanges(robot, others, trees.forest(), hits, options.proof_tests);
   // Pairs that collide in the default state are only checked in the first random states.
-  const double always_of_first = options.always_share * static_cast<double>(std::min(kStatesAtOnce, options.samples));
+  const auto all = static_cast<double>(options.samples);
+  const auto first = static_cast<double>(std::min(kStatesAtOnce, options.samples));
 
-  GeneratedMatrix matrix;
-  const int links = static_cast<int>(robot->links().size());
-  for (int first = 0; first < links; ++first)
+  MatrixBuilder builder(*robot, options.drop_checked);
+  for (const BodyPair& pair : pairs)
   {
-    for (int second = first + 1; second < links; ++second)
+    if (users.count(pair) != 0)
+      continue;
+    const auto hit = hits.find(pair);
+    const bool at_default = in_default_state.count(pair) != 0;
+    const double share = hit == hits.end() ? 0.0 : static_cast<double>(hit->second) / (at_default ? first : all);
+    DisabledPair found{pair[0], pair[1], DisabledReason::Adjacent};
+    found.free_share = 1.0 - share;
+    if (adjacent.count(pair) != 0)
+      builder.disable(found);
+    else if (unreachable.count(pair) != 0 || separated.count(pair) != 0)
     {
-      if (robot->links()[first].shapes.empty() || robot->links()[second].shapes.empty() ||
-          users.count({first, second}) != 0)
-        continue;
-      const auto hit = hits.find({first, second});
-      if (adjacent.count({first, second}) != 0)
-        matrix.disabled.push_back({first, second, DisabledReason::Adjacent});
-      else if (in_default_state.count({first, second}) != 0)
-      {
-        const double count = hit == hits.end() ? 0.0 : static_cast<double>(hit->second);
-        if (count >= always_of_first)
-          matrix.disabled.push_back({first, second, DisabledReason::Default});
-        else
-          matrix.colliding_in_default_state.emplace_back(first, second);
-      }
+      found.reason = DisabledReason::Never;
+      found.proof = unreachable.count(pair) != 0 ? NeverProof::Reach : NeverProof::JointRanges;
+      builder.disable(found);
+    }
+    else if (hit != hits.end() && share >= options.always_share)
+    {
+      found.reason = at_default ? DisabledReason::Default : DisabledReason::Always;
+      builder.disable(found);
+    }
+    else
+    {
+      builder.check(pair, share);
+      if (at_default)
+        builder.matrix().colliding_in_default_state.emplace_back(pair[0], pair[1]);
       else if (hit == hits.end())
-        matrix.disabled.push_back({first, second, DisabledReason::Never});
-      else if (static_cast<double>(hit->second) >= always)
-        matrix.disabled.push_back({first, second, DisabledReason::Always});
-      else
-        ++matrix.remaining_pairs;
+        builder.matrix().unproven.emplace_back(pair[0], pair[1]);
     }
   }
-  matrix.remaining_pairs += matrix.colliding_in_default_state.size();
-  return matrix;
+  return std::move(builder.matrix());
 }
 }  // namespace gpu_planning_scene::core

@@ -162,6 +162,41 @@ TEST(Joints, AdjacentLinksStepOverLinksWithoutShapes)
   EXPECT_EQ(robot->adjacentLinks(), (std::vector<std::pair<int, int>>{{a, b}, {a, c}}));
 }
 
+TEST(Joints, AdjacentLinksHaveAtMostOneMovingJointBetweenThem)
+{
+  const auto are_adjacent = [](const std::vector<std::string>& types, const std::string& inside = kLimits)
+  {
+    std::string urdf =
+        boxLink("a") + boxLink("leaf") + boxLink("b") + jointXml("leader", "prismatic", "a", "leaf", kLimits);
+    std::string parent = "a";
+    for (std::size_t i = 0; i < types.size(); ++i)
+    {
+      const std::string child = i + 1 == types.size() ? "b" : "empty_" + std::to_string(i);
+      if (child != "b")
+        urdf += "<link name='" + child + "'/>";
+      urdf += jointXml("j" + std::to_string(i), types[i], parent, child, types[i] == "fixed" ? "" : inside);
+      parent = child;
+    }
+    const auto robot = robotOf(urdf);
+    const auto pairs = robot->adjacentLinks();
+    const std::pair<int, int> pair = {robot->linkIndex("a"), robot->linkIndex("b")};
+    return std::find(pairs.begin(), pairs.end(), pair) != pairs.end();
+  };
+  const std::string mimic = std::string(kLimits) + "<mimic joint='leader'/>";
+  EXPECT_TRUE(are_adjacent({"fixed"}));
+  EXPECT_TRUE(are_adjacent({"fixed", "fixed", "fixed"}));
+  EXPECT_TRUE(are_adjacent({"revolute"}));
+  EXPECT_TRUE(are_adjacent({"fixed", "continuous", "fixed"}));
+  EXPECT_TRUE(are_adjacent({"prismatic"}, mimic));
+  EXPECT_FALSE(are_adjacent({"revolute", "revolute"}));
+  EXPECT_FALSE(are_adjacent({"revolute", "revolute", "revolute"})) << "a shoulder of three joints";
+  EXPECT_FALSE(are_adjacent({"revolute", "fixed", "prismatic"}));
+  EXPECT_FALSE(are_adjacent({"fixed", "prismatic", "prismatic"}, mimic)) << "a joint that mimics another one moves";
+  EXPECT_FALSE(are_adjacent({"planar"})) << "as three joints that together move in a plane";
+  EXPECT_FALSE(are_adjacent({"floating"})) << "no bearing holds the two links together";
+  EXPECT_FALSE(are_adjacent({"fixed", "floating", "fixed"}));
+}
+
 TEST(Joints, ChildrenOfAnEmptyRootAreNotAdjacent)
 {
   const auto robot = robotOf("<link name=\"empty\"/>" + twoLinks() + jointXml("1", "fixed", "empty", "a") +

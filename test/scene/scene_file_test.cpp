@@ -466,6 +466,35 @@ TEST_F(SceneFile, MultiDofJointsTakeTransforms)
   EXPECT_TRUE(poses[0].isApprox(pose(3, 4, 5, M_PI_2), 1e-15));
 }
 
+TEST_F(SceneFile, TransformsAreMotionsFromTheOriginOfTheJoint)
+{
+  for (const char* type : {"planar", "floating"})
+  {
+    SCOPED_TRACE(type);
+    const auto robot = robotOf(
+        boxLink("base") + boxLink("arm") + boxLink("body") +
+        jointXml("lift", "prismatic", "base", "arm",
+                 "<origin xyz='0 0 1'/><axis xyz='0 0 1'/>" + std::string(kLimits)) +
+        jointXml("free", type, "arm", "body", "<origin xyz='1 0 0' rpy='0 0 1.5707963267948966'/><axis xyz='0 0 1'/>"));
+    const auto yaml = [](const std::string& frame)
+    {
+      return "robot_state: {joint_state: {name: [lift], position: [0.5]}, multi_dof_joint_state: {header: {frame_id: "
+             "'" +
+             frame + "'}, joint_names: [free], transforms: [{translation: [3, 0, 0], rotation: [0, 0, 0, 1]}]}}";
+    };
+    for (const char* frame : {"", "base"})
+    {
+      const PlanningScene scene = load(yaml(frame), robot);
+      std::vector<Eigen::Isometry3d> poses(robot->links().size());
+      robot->linkPoses(scene.current_state.data(), poses.data());
+      EXPECT_TRUE(poses[2].isApprox(pose(1, 3, 1.5, M_PI_2), 1e-12)) << frame;
+    }
+    EXPECT_NE(std::string::npos, errorOf([&] { load(yaml("arm"), robot); })
+                                     .find("multi_dof_joint_state is given in frame 'arm'; it must be the planning "
+                                           "frame 'base' or empty"));
+  }
+}
+
 TEST_F(SceneFile, PaddingIsPerLink)
 {
   const PlanningScene scene = load(R"(

@@ -5,6 +5,7 @@
 #include "model/text/name_list.h"
 #include "model/virtual_joint.h"
 #include "scene/files/scene_reader.h"
+#include "scene/frame.h"
 #include "scene/message_values.h"
 
 namespace gpu_planning_scene::core
@@ -95,8 +96,10 @@ void readMultiDofState(const YamlValue& value, const SceneReader& reader, GivenS
     return;
   const YamlValue* header = value.find("header");
   const YamlValue* frame = header ? header->find("frame_id") : nullptr;
-  if (frame && !frame->text().empty() && frame->text() != reader.robot.planningFrame())
-    frame->fail("multi_dof_joint_state must be given in the planning frame '" + reader.robot.planningFrame() + "'");
+  if (frame && !frame->text().empty() && !isPlanningFrame(reader.robot, frame->text()))
+    frame->fail("multi_dof_joint_state is given in frame '" + frame->text() + "'; it must be the planning frame '" +
+                reader.robot.planningFrame() +
+                "' or empty, because the transform is the motion of the joint from its origin");
   for (std::size_t i = 0; i < name_count; ++i)
   {
     const std::string& name = names->items()[i].text();

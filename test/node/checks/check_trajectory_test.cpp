@@ -323,7 +323,7 @@ TEST(MultiDofTrajectory, IsCheckedAsTheSameValuesByName)
     wrong.multi_dof_joint_trajectory.header.frame_id = "kitchen";
     EXPECT_EQ(
         "multi_dof_joint_trajectory: waypoint 0: 'floor' is given in frame 'kitchen'; it must be the planning frame "
-        "'hall' or the joint's parent 'hall'",
+        "'hall' or empty, because the transform is the motion of the joint from its origin",
         robot.services.checkTrajectory(wrong).message);
     wrong = transforms;
     wrong.multi_dof_joint_trajectory.points[1].transforms[0].translation.x = std::nan("");
@@ -333,6 +333,40 @@ TEST(MultiDofTrajectory, IsCheckedAsTheSameValuesByName)
     wrong.multi_dof_joint_trajectory.points[1].transforms.clear();
     EXPECT_EQ("multi_dof_joint_trajectory: waypoint 1 has 0 values for 1 joints",
               robot.services.checkTrajectory(wrong).message);
+  }
+}
+
+TEST(MultiDofTrajectory, ATransformIsTheMotionFromTheOriginOfTheJoint)
+{
+  // The joint is 1 m in front of its parent, which is no root. The post is 5 m in front of the root: 3 m from there.
+  for (const std::string type : {"planar", "floating"})
+  {
+    SCOPED_TRACE(type);
+    PlanningScene scene(robotOf("<link name='base'/><link name='arm'/>" + boxLink("body") +
+                                jointXml("lift", "prismatic", "base", "arm",
+                                         "<origin xyz='1 0 0'/><axis xyz='0 0 1'/>" + std::string(kLimits)) +
+                                jointXml("free", type, "arm", "body", "<origin xyz='1 0 0'/><axis xyz='0 0 1'/>")));
+    WorldObject post;
+    post.id = "post";
+    post.pose.translation().x() = 5.0;
+    post.shapes = {{Box{{0.1, 0.1, 5.0}}}};
+    scene.objects = {post};
+    Answering robot(std::move(scene));
+    robot.store.updateState({{"lift", 0.0}});
+    CheckTrajectory::Request request;
+    request.resolution = request.translation_resolution = 0.05;
+    addTransforms("free", {transformAt(1, 0, 0), transformAt(3, 0, 0), transformAt(5, 0, 0)}, request);
+    request.start_state.multi_dof_joint_state.joint_names = {"free"};
+    request.start_state.multi_dof_joint_state.transforms = {transformAt(3, 0, 0)};
+    const auto response = robot.services.checkTrajectory(request);
+    ASSERT_TRUE(response.success) << response.message;
+    EXPECT_FALSE(response.start_valid);
+    EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 1}), response.waypoint_valid);
+    request.multi_dof_joint_trajectory.header.frame_id = "arm";
+    EXPECT_NE(std::string::npos, robot.services.checkTrajectory(request).message.find("given in frame 'arm'"));
+    request.multi_dof_joint_trajectory.header.frame_id = "base";
+    request.start_state.multi_dof_joint_state.header.frame_id = "arm";
+    EXPECT_NE(std::string::npos, robot.services.checkTrajectory(request).message.find("given in frame 'arm'"));
   }
 }
 

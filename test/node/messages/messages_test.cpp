@@ -231,6 +231,78 @@ TEST_F(Messages, JointsWithSeveralVariablesTakeTransforms)
   }
 }
 
+TEST_F(Messages, TransformsAreMotionsFromTheOriginOfTheJoint)
+{
+  using Eigen::AngleAxisd;
+  using Eigen::Translation3d;
+  using Eigen::Vector3d;
+  for (const char* type : {"planar", "floating"})
+  {
+    SCOPED_TRACE(type);
+    scene_ = PlanningScene(
+        robotOf(boxLink("base") + boxLink("arm") + boxLink("body") +
+                jointXml("lift", "prismatic", "base", "arm",
+                         "<origin xyz='0 0 1' rpy='0 0 0.5'/><axis xyz='0 0 1'/>" + std::string(kLimits)) +
+                jointXml("free", type, "arm", "body", "<origin xyz='1 0 0' rpy='0 0 1.2'/><axis xyz='0 0 1'/>")));
+    state_ = scene_.robot->defaultState();
+    PlanningSceneMessage message = diff();
+    message.robot_state.joint_state.name = {"lift"};
+    message.robot_state.joint_state.position = {0.25};
+    sensor_msgs::MultiDOFJointState& joints = message.robot_state.multi_dof_joint_state;
+    joints.joint_names = {"free"};
+    joints.transforms.resize(1);
+    joints.transforms[0].translation.x = 3.0;
+    joints.transforms[0].translation.y = -2.0;
+    joints.transforms[0].rotation.z = std::sin(0.35);
+    joints.transforms[0].rotation.w = std::cos(0.35);
+    const Eigen::Isometry3d motion = Translation3d(3.0, -2.0, 0.0) * AngleAxisd(0.7, Vector3d::UnitZ());
+    const Eigen::Isometry3d expected = Translation3d(0.0, 0.0, 1.25) * AngleAxisd(0.5, Vector3d::UnitZ()) *
+                                       Translation3d(1.0, 0.0, 0.0) * AngleAxisd(1.2, Vector3d::UnitZ()) * motion;
+    for (const char* frame : {"", "base", "/base"})
+    {
+      joints.header.frame_id = frame;
+      applyMessage(message);
+      EXPECT_TRUE(scene_.frame("body", state_.data())->isApprox(expected, 1e-12)) << frame;
+    }
+    // What the node gives back is what it has been given.
+    const sensor_msgs::MultiDOFJointState given_back = get().robot_state.multi_dof_joint_state;
+    EXPECT_EQ("base", given_back.header.frame_id);
+    EXPECT_NEAR(3.0, given_back.transforms.at(0).translation.x, 1e-12);
+    EXPECT_NEAR(-2.0, given_back.transforms.at(0).translation.y, 1e-12);
+    EXPECT_NEAR(std::sin(0.35), given_back.transforms.at(0).rotation.z, 1e-12);
+    joints.header.frame_id = "arm";
+    refusedMessage("is given in frame 'arm'; it must be the planning frame 'base' or empty", message);
+  }
+}
+
+TEST_F(Messages, ALinkThatIsFixedInThePlanningFrameIsAFrameOfTransformsOnlyWithoutAnOffset)
+{
+  const std::string links = boxLink("base") + boxLink("deck") + boxLink("mast") + boxLink("body") +
+                            jointXml("bolt", "fixed", "base", "deck") +
+                            jointXml("pole", "fixed", "base", "mast", "<origin xyz='0 0 1'/>") +
+                            jointXml("free", "floating", "deck", "body");
+  scene_ = PlanningScene(
+      robotOf(links, "<virtual_joint name='stand' type='fixed' parent_frame='world' child_link='base'/>"));
+  state_ = scene_.robot->defaultState();
+  PlanningSceneMessage message = diff();
+  sensor_msgs::MultiDOFJointState& joints = message.robot_state.multi_dof_joint_state;
+  joints.joint_names = {"free"};
+  joints.transforms.resize(1);
+  joints.transforms[0].translation.x = 3.0;
+  joints.transforms[0].rotation.w = 1.0;
+  for (const char* frame : {"world", "base", "deck"})
+  {
+    joints.header.frame_id = frame;
+    applyMessage(message);
+    EXPECT_TRUE(scene_.frame("body", state_.data())->isApprox(poseAt(3, 0, 0), 1e-15)) << frame;
+  }
+  for (const char* frame : {"mast", "body", "nowhere"})
+  {
+    joints.header.frame_id = frame;
+    refusedMessage("it must be the planning frame 'world' or empty", message);
+  }
+}
+
 TEST_F(Messages, AttachedObjectsFollowMoveItsRulesOfIsDiff)
 {
   PlanningSceneMessage attach = diff();

@@ -63,7 +63,7 @@ std::vector<ChainJoint> jointsBetween(const RobotModel& robot, int from, int to)
   return chain;
 }
 
-std::optional<std::vector<TableVariable>> tableVariables(const RobotModel& robot, const std::vector<ChainJoint>& chain)
+std::optional<std::vector<TableVariable>> chainVariables(const RobotModel& robot, const std::vector<ChainJoint>& chain)
 {
   std::vector<TableVariable> variables;
   for (const ChainJoint& part : chain)
@@ -77,15 +77,21 @@ std::optional<std::vector<TableVariable>> tableVariables(const RobotModel& robot
     if (std::any_of(variables.begin(), variables.end(), is_known))
       continue;
     const std::optional<TableVariable> range = rangeOf(robot, joint.first_variable, chain);
-    if (!range || variables.size() == 2)
+    if (!range)
       return std::nullopt;
     variables.push_back(*range);
   }
-  if (variables.empty())
+  return variables;
+}
+
+std::optional<std::vector<TableVariable>> tableVariables(const RobotModel& robot, const std::vector<ChainJoint>& chain)
+{
+  std::optional<std::vector<TableVariable>> variables = chainVariables(robot, chain);
+  if (!variables || variables->empty() || variables->size() > 2)
     return std::nullopt;
-  for (TableVariable& variable : variables)
+  for (TableVariable& variable : *variables)
   {
-    variable.cells = variables.size() == 1 ? kCellsOfOne : kCellsOfTwo;
+    variable.cells = variables->size() == 1 ? kCellsOfOne : kCellsOfTwo;
     variable.cell_width /= variable.cells;
   }
   return variables;
