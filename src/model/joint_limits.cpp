@@ -44,6 +44,32 @@ bool isAngle(const RobotModel& robot, int variable)
   return false;
 }
 
+bool isTranslation(const RobotModel& robot, int variable)
+{
+  for (const Joint& joint : robot.joints())
+  {
+    const int count = joint.type == JointType::Planar ? 2 : joint.type == JointType::Floating ? 3 : 0;
+    if (variable >= joint.first_variable && variable < joint.first_variable + count)
+      return true;
+  }
+  return false;
+}
+
+/// The range that the value is outside of, in words.
+std::string rangeText(const RobotModel& robot, int index, double value)
+{
+  const Variable& variable = robot.variables()[static_cast<std::size_t>(index)];
+  const std::string range = number(variable.lower) + " to " + number(variable.upper);
+  const bool is_within = value >= variable.lower && value <= variable.upper;
+  if (variable.bounded && !is_within)
+    return "outside its limits " + range + (isAngle(robot, index) ? " rad" : "");
+  if (isTranslation(robot, index))
+    return "outside " + range +
+           ", the range of translations without limits; set a larger unbounded_translation, or give the "
+           "request a workspace";
+  return "too large: it, or a joint that follows it, turns by more than " + number(kLargestProvenAngle) + " rad";
+}
+
 bool mayBeDegrees(const RobotModel& robot, int variable, double value)
 {
   // A smaller value is unlikely to be in degrees.
@@ -73,9 +99,8 @@ std::string ValuesOutsideLimits::text() const
   const auto variable = [this](int index) -> const Variable&
   { return robot_.variables()[static_cast<std::size_t>(index)]; };
   const Variable& first = variable(first_variable_);
-  std::string line = "joint '" + first.name + "' is " + valueOf(first, first_value_) + ", outside its limits " +
-                     number(first.lower) + " to " + number(first.upper) +
-                     (isAngle(robot_, first_variable_) ? " rad" : "");
+  std::string line = "joint '" + first.name + "' is " + valueOf(first, first_value_) + ", " +
+                     rangeText(robot_, first_variable_, first_value_);
   if (in_degrees_)
     line += "; values are in radians, and " +
             (in_degrees_ == first_variable_ && degrees_ == first_value_

@@ -9,13 +9,19 @@
 
 namespace gpu_planning_scene::core
 {
-/// Collects values that are outside their joint limits, and describes them in one line.
+/// The largest angle of a joint, in radians, at which motions are proven free. Doubles resolve 1.2e-10 rad there; at
+/// larger angles, rounding would move a body by more than the bound of a motion allows.
+constexpr double kLargestProvenAngle = 1e6;
+
+/// Collects values that are outside their joint limits or outside another range of their variables, and describes them
+/// in one line.
 class ValuesOutsideLimits
 {
  public:
   explicit ValuesOutsideLimits(const RobotModel& robot) : robot_(robot) {}
 
-  /// Adds a value that is outside the limits of its variable. Radians or metres.
+  /// Adds a value that is outside the limits of its variable; or, in a variable without limits, a translation outside
+  /// its range, or an angle beyond kLargestProvenAngle, also of a joint that follows it. Radians or metres.
   void add(int variable, double value);
 
   std::size_t count() const { return count_; }

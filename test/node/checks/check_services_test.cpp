@@ -89,11 +89,12 @@ TEST_F(Service, ARequestCanNameARevision)
 
 TEST_F(Service, OtherVariablesTakeTheCurrentState)
 {
-  expectRefusal(request({"turn"}, {0.0}),
-                "no value for slide; give values for all joints (a named state takes no further values), or set the "
-                "current state: "
-                "with the topic joint_states, with robot_state.joint_state in the scene file, or with "
-                "~apply_planning_scene");
+  expectRefusal(
+      request({"turn"}, {0.0}),
+      "no value for slide; give values for all joints (a named state takes no further values), or set the "
+      "current state: "
+      "with the topic joint_states, with robot_state.joint_state in the scene file, or with "
+      "~apply_planning_scene; list joints that nobody measures, such as casters, as <passive_joint> in the SRDF");
   store.updateState({{"slide", 1.0}});
   EXPECT_EQ((std::vector<std::uint8_t>{0}), answer(request({"turn"}, {0.5})).valid);
 }
@@ -237,11 +238,29 @@ TEST(RequestedStates, AMotionNeedsAllOfARotationOrNothing)
   EXPECT_NE(std::string::npos, errorOf([&] { requireWholeRotations(*robot, {turn, first + 4}); }).find("'swim'"));
 }
 
-TEST_F(Service, NoStatesGetNoAnswers)
+TEST_F(Service, NamesWithoutValuesAreRefused)
 {
-  const CheckStates::Response response = answer(request({"turn", "slide"}, {}));
-  EXPECT_TRUE(response.success) << response.message;
-  EXPECT_TRUE(response.valid.empty());
+  store.updateState({{"slide", 0.0}, {"turn", 0.5}});
+  expectRefusal(request({"turn", "slide"}, {}),
+                "positions is empty, but joint_names names turn, slide; give rows of 2 values, one per name, or leave "
+                "out both for the current state");
+  CheckMotions::Request motions;
+  motions.joint_names = {"turn"};
+  motions.resolution = motions.translation_resolution = 0.1;
+  const auto refusal = [&]
+  {
+    const CheckMotions::Response response = services.checkMotions(motions);
+    EXPECT_FALSE(response.success);
+    return response.message;
+  };
+  EXPECT_EQ("starts is empty, but joint_names names turn; give rows of 1 value", refusal());
+  motions.named_start = "left";
+  EXPECT_EQ("ends is empty, but joint_names names turn; give rows of 1 value", refusal());
+  std::swap(motions.named_start, motions.named_end);
+  EXPECT_EQ("starts is empty, but joint_names names turn; give rows of 1 value", refusal());
+  motions.named_end.clear();
+  motions.starts = {0.0};
+  EXPECT_EQ("1 values in starts and 0 in ends; give one row of each per motion", refusal());
 }
 
 TEST_F(Service, ARequestWithoutStatesChecksTheCurrentState)
