@@ -76,6 +76,22 @@ bool mayBeDegrees(const RobotModel& robot, int variable, double value)
   return std::abs(value) > kTwoTurns && isAngle(robot, variable) &&
          !isOutside(robot.variables()[static_cast<std::size_t>(variable)], value * kPi / 180.0);
 }
+/// The first translation that is beyond kExactRange.
+std::optional<ValueOutsideLimits> findFarTranslation(const RobotModel& robot, const std::vector<int>& columns,
+                                                     const double* rows, std::size_t count)
+{
+  for (std::size_t k = 0; k < columns.size(); ++k)
+  {
+    if (!isTranslation(robot, columns[k]))
+      continue;
+    for (std::size_t row = 0; row < count; ++row)
+      if (const double value = rows[row * columns.size() + k]; std::abs(value) > kExactRange)
+        return ValueOutsideLimits{row, "joint '" + robot.variables()[static_cast<std::size_t>(columns[k])].name +
+                                           "' is " + number(value) + "; answers are exact only within " +
+                                           number(kExactRange) + " m of the origin of the planning frame"};
+  }
+  return std::nullopt;
+}
 }  // namespace
 
 void ValuesOutsideLimits::add(int variable, double value)
@@ -127,7 +143,7 @@ std::optional<ValueOutsideLimits> findValueOutsideLimits(const RobotModel& robot
         outside.add(column, value);
       }
   if (outside.count() == 0)
-    return std::nullopt;
+    return findFarTranslation(robot, columns, rows - count * columns.size(), count);
   return ValueOutsideLimits{first_row, outside.text()};
 }
 }  // namespace gpu_planning_scene::core
