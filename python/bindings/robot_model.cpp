@@ -78,10 +78,10 @@ RobotPtr fromXml(const Arg<std::string>& urdf, const Arg<std::string>& srdf, con
                  const Arg<std::string>& planning)
 {
   core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value, files);
-  std::vector<std::string> warnings;
+  std::vector<std::string> faults;
   if (!planning.value.empty())
-    options.position_limits = core::positionLimitsFromText(planning.value, "planning", &warnings);
-  warnOf(warnings);
+    options.position_limits = core::positionLimitsFromText(planning.value, "planning", &faults);
+  warnOf(faults);
   options.urdf_folder = pathFrom(urdf_folder, "urdf_folder");
   options.urdf_name = "urdf";
   options.srdf_name = "srdf";
