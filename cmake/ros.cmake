@@ -29,7 +29,8 @@ add_message_files(FILES
   PlanningScene.msg
   PlanningSceneComponents.msg
   PlanningSceneWorld.msg
-  RobotState.msg)
+  RobotState.msg
+  WorkspaceParameters.msg)
 add_service_files(FILES
   ApplyPlanningScene.srv
   CheckMotions.srv

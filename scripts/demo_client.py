@@ -19,17 +19,28 @@ Variable = collections.namedtuple("Variable", "name lower upper")
 QUATERNION = ["rot_x", "rot_y", "rot_z", "rot_w"]
 
 
-def variables_of(urdf, reach=1.0):
-    """The variables of a URDF text that need values. Angles without limits get the range [-pi, pi]; translations of
-    planar and floating joints get the range [-reach, reach] in metres."""
+def limits_of(joint, replaced):
+    """The limits of a revolute or prismatic joint of the URDF: those of <limit> and of <safety_controller>, or those
+    that replace them."""
+    lower, upper = (float(joint.find("limit").get(name, 0)) for name in ("lower", "upper"))
+    soft = joint.find("safety_controller")
+    if soft is not None:
+        lower = max(lower, float(soft.get("soft_lower_limit", 0)))
+        upper = min(upper, float(soft.get("soft_upper_limit", 0)))
+    return replaced.get("min_position", lower), replaced.get("max_position", upper)
+
+
+def variables_of(urdf, joint_limits=None, reach=1.0):
+    """The variables of a URDF text that need values. `joint_limits`: the parameter
+    robot_description_planning/joint_limits. Angles without limits get the range [-pi, pi]; translations of planar and
+    floating joints get the range [-reach, reach] in metres."""
     variables = []
     for joint in xml.etree.ElementTree.fromstring(urdf).findall("joint"):
         name, kind = joint.get("name"), joint.get("type")
         if kind == "fixed" or joint.find("mimic") is not None:
             continue
         if kind in ("revolute", "prismatic"):
-            limit = joint.find("limit")
-            variables.append(Variable(name, float(limit.get("lower", 0)), float(limit.get("upper", 0))))
+            variables.append(Variable(name, *limits_of(joint, (joint_limits or {}).get(name, {}))))
         elif kind == "continuous":
             variables.append(Variable(name, -math.pi, math.pi))
         elif kind == "planar":
@@ -100,7 +111,9 @@ def call(arguments):
 
     rospy.init_node("demo_client", anonymous=True)
     rospy.wait_for_service(arguments.service, arguments.timeout)
-    variables = variables_of(rospy.get_param("robot_description"))
+    variables = variables_of(
+        rospy.get_param("robot_description"), rospy.get_param("robot_description_planning/joint_limits", None)
+    )
     around = state_of_scene(arguments.around) if arguments.around else None
     states = random_states(variables, arguments.states, arguments.seed, around, arguments.spread)
     check_states = rospy.ServiceProxy(arguments.service, CheckStates)

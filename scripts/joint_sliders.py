@@ -147,7 +147,9 @@ def main():
     arguments = parser.parse_args(rospy.myargv()[1:])
     rospy.init_node("joint_sliders")
     start = start_values(rospy.resolve_name(arguments.node))
-    variables = variables_of(rospy.get_param("robot_description"))
+    variables = variables_of(
+        rospy.get_param("robot_description"), rospy.get_param("robot_description_planning/joint_limits", None)
+    )
     if not variables:
         print("joint_sliders.py: the robot has no joint that moves", file=sys.stderr)
         return 1

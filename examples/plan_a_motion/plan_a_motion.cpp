@@ -1,10 +1,13 @@
 // plan_a_motion [--package NAME=FOLDER] URDF SRDF GROUP START GOAL [SCENE]: plans a path of a planning group between
 // two states, and prints it.
 // --package: the folder of package://NAME/..., can be repeated. Packages on ROS_PACKAGE_PATH need no option.
-// START and GOAL: one value per variable of the group, "0,0.5,-1", or the name of a state of the SRDF, "ready".
-// SCENE: a scene file with the objects around the robot.
+// START and GOAL: values by name, "elbow=0.5,wrist=-1"; or one value for each variable that is planned for, in the
+// order of the robot, "0,0.5,-1"; or the name of a state of the SRDF, "ready". SCENE: a scene file with the objects
+// around the robot.
+#include <algorithm>
 #include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -47,34 +50,80 @@ Arguments argumentsFrom(int argc, char** argv)
   return arguments;
 }
 
+/// The variables that are planned for, in the order of the robot. (The space has another order: joints with limits
+/// first.)
+std::vector<int> plannedVariables(const GroupStateSpace& space)
+{
+  std::vector<int> variables = space.variables();
+  std::sort(variables.begin(), variables.end());
+  return variables;
+}
+
 std::string variableNames(const GroupStateSpace& space, const char* separator)
 {
   std::string names;
-  for (const int variable : space.variables())
+  for (const int variable : plannedVariables(space))
     names += (names.empty() ? "" : separator) + space.robot()->variables()[variable].name;
   return names;
+}
+
+/// Reads a number. Throws Error, which names the whole text, if the word is not one.
+double numberFrom(const std::string& word, const std::string& text)
+{
+  std::istringstream stream(word);
+  double number = 0.0;
+  if (!(stream >> number) || !(stream >> std::ws).eof())
+    throw Error("'" + text + "': '" + word + "' is not a number");
+  return number;
+}
+
+/// Sets the variable of "NAME=VALUE". Variables that the text does not name keep their values.
+void setByName(const std::string& word, const std::string& text, const GroupStateSpace& space, std::set<int>& named,
+               std::vector<double>& row)
+{
+  const std::size_t equals = word.find('=');
+  const std::string name = word.substr(0, equals);
+  const std::vector<int> planned = plannedVariables(space);
+  const int variable = space.robot()->variableIndex(name);
+  if (equals == std::string::npos)
+    throw Error("'" + text + "': give a name for each value or for none");
+  if (std::find(planned.begin(), planned.end(), variable) == planned.end())
+    throw Error("'" + text + "': the group does not plan for a variable '" + name + "'; its variables are " +
+                variableNames(space, ","));
+  if (!named.insert(variable).second)
+    throw Error("'" + text + "': '" + name + "' is given twice");
+  row[variable] = numberFrom(word.substr(equals + 1), text);
 }
 
 /// Writes the state that `text` describes into `row`, which has a value for each variable of the robot.
 void setState(const std::string& text, const GroupStateSpace& space, std::vector<double>& row)
 {
   const RobotModel& robot = *space.robot();
-  if (text.find_first_not_of("0123456789+-.eE, ") != std::string::npos)
+  const bool has_names = text.find('=') != std::string::npos;
+  if (!has_names && text.find_first_not_of("0123456789+-.eE, ") != std::string::npos)
   {
     const NamedState state = robot.namedState(text);
     for (std::size_t i = 0; i < state.variables.size(); ++i)
       row[state.variables[i]] = state.values[i];
     return;
   }
-  std::vector<double> values;
-  std::istringstream words(text);
-  for (std::string word; std::getline(words, word, ',');)
-    values.push_back(std::stod(word));
-  if (values.size() != space.variables().size())
-    throw Error("'" + text + "' has " + std::to_string(values.size()) + (values.size() == 1 ? " value" : " values") +
-                "; the group has the variables " + variableNames(space, ","));
-  for (std::size_t i = 0; i < values.size(); ++i)
-    row[space.variables()[i]] = values[i];
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; std::getline(stream, word, ',');)
+    words.push_back(word);
+  std::set<int> named;
+  if (has_names)
+  {
+    for (const std::string& word : words)
+      setByName(word, text, space, named, row);
+    return;
+  }
+  const std::vector<int> planned = plannedVariables(space);
+  if (words.size() != planned.size())
+    throw Error("'" + text + "' has " + std::to_string(words.size()) + (words.size() == 1 ? " value" : " values") +
+                "; the group plans for " + variableNames(space, ",") + ", in this order");
+  for (std::size_t i = 0; i < words.size(); ++i)
+    row[planned[i]] = numberFrom(words[i], text);
 }
 
 /// Throws Error if the state is outside the joint limits of the group or in collision. OMPL would say only that it is
@@ -82,7 +131,7 @@ void setState(const std::string& text, const GroupStateSpace& space, std::vector
 void requireValid(const std::string& name, const std::vector<double>& row, const GroupStateSpace& space,
                   const PlanningScene& scene, StateChecker& checker)
 {
-  for (const int index : space.variables())
+  for (const int index : plannedVariables(space))
     if (const Variable& variable = space.robot()->variables()[index];
         variable.bounded && (row[index] < variable.lower || row[index] > variable.upper))
       throw Error("the " + name + " is outside the joint limits: " + variable.name + " is " +
@@ -130,7 +179,13 @@ try
   if (status != ompl::base::PlannerStatus::EXACT_SOLUTION)
     throw Error("no path was found within 10 s: " + status.asString());
   std::cout << variableNames(*space, " ") << "\n";
-  setup.getSolutionPath().printAsMatrix(std::cout);  // a row per waypoint; the path is free between them too
+  for (const ompl::base::State* state : setup.getSolutionPath().getStates())  // the path is free between them too
+  {
+    space->copyToRow(state, row.data());
+    for (const int variable : plannedVariables(*space))
+      std::cout << row[variable] << " ";
+    std::cout << "\n";
+  }
   return 0;
 }
 catch (const std::exception& error)

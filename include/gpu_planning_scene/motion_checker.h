@@ -42,7 +42,8 @@ struct MotionCheckerOptions
 };
 
 /// A motion is invalid as a whole if it has more than MotionCheckerOptions::max_samples samples at the given steps, or,
-/// under MotionRule::Bound, if a joint of its start or end is beyond its limits. Both fractions are then 0.
+/// under MotionRule::Bound, if a joint of its start or end is beyond its limits, or turns by more than 1e6 radians from
+/// 0. Both fractions are then 0.
 struct MotionVerdict
 {
   bool valid = false;

@@ -126,6 +126,9 @@ struct PlanningScene
   MatrixSource matrix_source;  ///< for reports
   /// One value per variable of the robot; empty until a state is set or received.
   std::vector<double> current_state;
+  /// True: nobody has set the virtual joint, so current_state has its default value. A service may take the robot's
+  /// pose from elsewhere, such as tf.
+  bool base_is_default = false;
   std::map<std::string, Eigen::Isometry3d> fixed_frames = {};  ///< poses in the planning frame, by name
   std::map<std::string, Color> colors = {};                    ///< by object or link; they do not affect any check
   std::uint64_t revision = 0;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <unordered_map>
@@ -24,13 +25,26 @@ namespace gpu_planning_scene::core
 struct Variable
 {
   std::string name;
-  bool bounded = false;  ///< the URDF gives limits
+  bool bounded = false;  ///< it has limits
   double lower = 0.0;    ///< limits, or the range of random states of an unbounded variable
   double upper = 0.0;    ///< (see RobotModelOptions)
   /// The largest allowed magnitude of this number in a state. It keeps the coordinates of translations within
   /// kLargestLength, and the angles of revolute and continuous joints within 1e300. This includes the joints that mimic
   /// this one. For other numbers, it is the largest finite number.
   double largest = std::numeric_limits<double>::max();
+  /// Source of the limits, for messages. Empty: the URDF's <limit>. Otherwise the URDF's <safety_controller>,
+  /// PositionLimits::source, or both.
+  std::string limits_source = {};
+};
+
+/// Position limits of a variable that replace those of the URDF: an entry of MoveIt's joint_limits. See
+/// readPositionLimits in planning_file.h.
+struct PositionLimits
+{
+  std::string variable;                     ///< as Variable::name
+  std::optional<double> min_position = {};  ///< radians or metres; no value: the limit of the URDF stays
+  std::optional<double> max_position = {};
+  std::string source = "joint_limits";  ///< the file or parameter, for messages
 };
 
 enum class JointType
@@ -118,6 +132,10 @@ struct RobotModelOptions
   /// translations of planar and floating joints in [-unbounded_translation, +unbounded_translation] (metres).
   /// Quaternions are uniform over the rotations.
   double unbounded_translation = 1.0;
+  /// They replace limits of the URDF, also by wider ones, as in MoveIt. An entry that can have no effect gives a
+  /// warning: the robot does not have the variable, or it belongs to a continuous, fixed or mimic joint or to a
+  /// rotation.
+  std::vector<PositionLimits> position_limits = {};
   std::function<void(const std::string& line)> info;  ///< receives a line for each program that was run; may be empty
 };
 
@@ -129,8 +147,9 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
 {
  public:
   /// `urdf` and `srdf` are XML texts; an empty `srdf` means that there is none. `warnings` (may be null) receives a
-  /// line for each harmless fault, for example an SRDF entry with an unknown link. Throws Error with name and line for
-  /// malformed XML, missing meshes, and unknown links or joints in groups.
+  /// line for each harmless fault, for example an SRDF entry with an unknown link. The limits of a joint are those of
+  /// its <limit>, and of its <safety_controller> where those are narrower, as in MoveIt. Throws Error with name and
+  /// line for malformed XML, missing meshes, unknown links or joints in groups, and limits that no position is within.
   static std::shared_ptr<const RobotModel> fromXml(const std::string& urdf, const std::string& srdf,
                                                    const RobotModelOptions& options,
                                                    std::vector<std::string>* warnings = nullptr);

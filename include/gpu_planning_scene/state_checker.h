@@ -101,7 +101,7 @@ struct SceneReport
   /// Body indices of a rigid pair that collides. Every state then collides.
   std::optional<BodyPair> always_colliding;
   /// Pairs that collided in each of kSampledStates random states within the joint limits, in ascending order. All
-  /// rigid pairs that collide are among them.
+  /// rigid pairs that collide are among them; pairs between which a planar, floating or passive joint lies are not.
   std::vector<BodyPair> colliding_in_samples;
   std::size_t triangles = 0;     ///< in all trees
   std::size_t trees = 0;         ///< one per distinct shape

@@ -45,6 +45,22 @@ void requireValues(const core::NamedState& state, const std::string& name, const
                       "; " + remedy);
 }
 
+/// Warns of passive joints that one of the states does not set.
+void warnOfPassiveJoints(const std::vector<std::string>& names, const core::RobotModel& robot, const std::string& what)
+{
+  for (const std::string& name : names)
+  {
+    std::vector<bool> given(robot.variables().size(), false);
+    for (const int variable : stateOf(name, robot, what).variables)
+      given[static_cast<std::size_t>(variable)] = true;
+    if (const std::string warning = core::assumedPassiveJoints(robot, given); !warning.empty())
+    {
+      warnOf({what + ": '" + name + "': " + warning});
+      return;
+    }
+  }
+}
+
 /// `base`: a full state.
 void writeRow(const core::NamedState& state, const core::RobotModel& robot, const double* base, double* row)
 {
@@ -77,6 +93,8 @@ Rows namedRows(const std::vector<std::string>& names, const core::RobotModel& ro
                                           : "set current_state of the scene, or give numbers for all variables";
   Rows rows = emptyRows(names.size(), robot);
   double* row = rows.array.mutable_data();
+  if (current == nullptr || current->empty())
+    warnOfPassiveJoints(names, robot, what);
   for (const std::string& name : names)
   {
     const core::NamedState state = stateOf(name, robot, what);

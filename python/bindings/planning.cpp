@@ -3,6 +3,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -60,10 +61,26 @@ std::uint32_t seedFrom(const py::object& seed)
   return static_cast<std::uint32_t>(value);
 }
 
+std::optional<Eigen::AlignedBox3d> workspaceFrom(const py::object& workspace)
+{
+  if (workspace.is_none())
+    return std::nullopt;
+  const bool is_pair =
+      (py::isinstance<py::tuple>(workspace) || py::isinstance<py::list>(workspace)) && py::len(workspace) == 2;
+  if (!is_pair)
+    throwTypeError("workspace: " + expectedButGot("a pair of corners, ((x, y, z), (x, y, z))", workspace));
+  const Eigen::AlignedBox3d box(vectorFrom(workspace[py::int_(0)], "workspace: the lower corner"),
+                                vectorFrom(workspace[py::int_(1)], "workspace: the upper corner"));
+  if (!box.min().allFinite() || !box.max().allFinite() || box.isEmpty())
+    throw core::Error("workspace: the corners must be finite, and the first must not be above the second");
+  return box;
+}
+
 PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>& group, const py::object& start,
                           const py::object& goals, Arg<double> seconds, Arg<bool> simplify,
                           const Arg<std::string>& rule, Arg<double> resolution, Arg<double> translation_resolution,
-                          Arg<std::size_t> max_samples, const py::object& parameters, const py::object& seed)
+                          Arg<std::size_t> max_samples, const py::object& parameters, const py::object& seed,
+                          const py::object& workspace)
 {
   const auto scene = checker.value->scene();
   PlanningQuery query;
@@ -78,6 +95,7 @@ PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>
   query.motions = motionOptionsFrom(rule, resolution, translation_resolution, max_samples);
   query.parameters = parametersFrom(parameters);
   query.seed = seedFrom(seed);
+  query.workspace = workspaceFrom(workspace);
   Interrupt interrupt;
   PlanningResult result = withoutLock(
       [&]
@@ -129,6 +147,7 @@ void addPlanning(py::module_& module)
       py::arg("seconds") = PlanningQuery().seconds, py::arg("simplify") = true, py::arg("rule") = "bound",
       py::arg("resolution") = motions.steps.revolute, py::arg("translation_resolution") = motions.steps.prismatic,
       py::arg("max_samples") = motions.max_samples, py::arg("parameters") = py::none(), py::arg("seed") = py::none(),
+      py::arg("workspace") = py::none(),
       "Plans a motion of a planning group in the scene of a StateChecker, with the planner BatchRrtConnect.\n\n"
       "start: shape (variables,). goals: shape (n, variables) or (variables,); the motion may end at any of "
       "them. Both can be names of states of the SRDF: variables that the start does not set have their values from the "
@@ -139,7 +158,9 @@ void addPlanning(py::module_& module)
       "OMPL's names, for example {\"range\": 0.5}. seed: from 1 to 4294967295; calls with the same seed "
       "give the same path, unless a time limit ends a search or a proof, or another thread plans without a seed "
       "meanwhile. If the parameter max_rounds ends a search before `seconds` do, a failure is the same each time too. "
-      "Calls with a seed run one after the other.\n\nReturns a "
+      "Calls with a seed run one after the other. workspace: a pair of corners (xyz, xyz), the range in metres in "
+      "which "
+      "planar and floating joints of the group are planned for; None: that of unbounded_translation.\n\nReturns a "
       "PlanningResult: a motion that "
       "is not found is not an exception. Raises Error for an unknown group or parameter, for other shapes, and for "
       "values that "

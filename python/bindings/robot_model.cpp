@@ -12,6 +12,7 @@
 #include "bindings/interrupt.h"
 #include "bindings/shapes.h"
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning_file.h"
 #include "gpu_planning_scene/robot_model.h"
 #include "model/description/description_file.h"
 
@@ -51,19 +52,36 @@ core::RobotModelOptions optionsFrom(py::handle packages, double unbounded_transl
   return options;
 }
 
-RobotPtr fromFiles(const py::object& urdf, const py::object& srdf, const py::object& packages,
-                   Arg<double> unbounded_translation, const py::object& files)
+/// The position limits of the file; none without a path.
+std::vector<core::PositionLimits> limitsOfFile(const std::string& path)
 {
-  const core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value, files);
+  std::vector<std::string> warnings;
+  std::vector<core::PositionLimits> limits;
+  if (!path.empty())
+    limits = core::readPositionLimits(path, &warnings);
+  warnOf(warnings);
+  return limits;
+}
+
+RobotPtr fromFiles(const py::object& urdf, const py::object& srdf, const py::object& packages,
+                   Arg<double> unbounded_translation, const py::object& files, const py::object& planning)
+{
+  core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value, files);
   const std::string urdf_path = pathFrom(urdf, "urdf");
   const std::string srdf_path = pathFrom(srdf, "srdf");
+  options.position_limits = limitsOfFile(pathFrom(planning, "planning"));
   return loaded([&](auto* warnings) { return RobotModel::fromFiles(urdf_path, srdf_path, options, warnings); });
 }
 
 RobotPtr fromXml(const Arg<std::string>& urdf, const Arg<std::string>& srdf, const py::object& packages,
-                 const py::object& urdf_folder, Arg<double> unbounded_translation, const py::object& files)
+                 const py::object& urdf_folder, Arg<double> unbounded_translation, const py::object& files,
+                 const Arg<std::string>& planning)
 {
   core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value, files);
+  std::vector<std::string> faults;
+  if (!planning.value.empty())
+    options.position_limits = core::positionLimitsFromText(planning.value, "planning", &faults);
+  warnOf(faults);
   options.urdf_folder = pathFrom(urdf_folder, "urdf_folder");
   options.urdf_name = "urdf";
   options.srdf_name = "srdf";
@@ -83,9 +101,11 @@ py::str decoded(const std::string& text, const std::string& file)
 
 /// The robot of fromFiles, and the texts of the URDF and of the SRDF that it was made of. xacro runs once for each
 /// file.
-py::tuple withTexts(const py::object& urdf, const py::object& srdf, const py::object& packages, const py::object& files)
+py::tuple withTexts(const py::object& urdf, const py::object& srdf, const py::object& packages, const py::object& files,
+                    const py::object& planning)
 {
   core::RobotModelOptions options = optionsFrom(packages, 1.0, files);
+  options.position_limits = limitsOfFile(pathFrom(planning, "planning"));
   const std::string urdf_path = pathFrom(urdf, "urdf");
   const std::string srdf_path = pathFrom(srdf, "srdf");
   const core::RobotDescription read =
@@ -190,9 +210,12 @@ void addParts(py::module_& module)
                              "One number of a robot state: radians, metres, or a component of a "
                              "quaternion. The names are MoveIt's.")
       .def_readonly("name", &core::Variable::name)
-      .def_readonly("bounded", &core::Variable::bounded, "True: the URDF gives limits.")
+      .def_readonly("bounded", &core::Variable::bounded, "True: it has limits.")
       .def_readonly("lower", &core::Variable::lower, "The lower limit, or that of random states.")
-      .def_readonly("upper", &core::Variable::upper, "The upper limit, or that of random states.");
+      .def_readonly("upper", &core::Variable::upper, "The upper limit, or that of random states.")
+      .def_readonly("limits_source", &core::Variable::limits_source,
+                    "Source of the limits. Empty: the URDF's <limit>. Otherwise the URDF's <safety_controller>, the "
+                    "argument planning, or both.");
   py::enum_<core::JointType>(module, "JointType", "The type of a joint.")
       .value("FIXED", core::JointType::Fixed)
       .value("REVOLUTE", core::JointType::Revolute)
@@ -208,6 +231,7 @@ void addParts(py::module_& module)
       .def_readonly("first_variable", &core::Joint::first_variable,
                     "-1 for fixed joints; a mimic joint has the variable of its leader.")
       .def_readonly("mimic", &core::Joint::mimic)
+      .def_readonly("passive", &core::Joint::passive, "True: a passive_joint of the SRDF.")
       .def_property_readonly(
           "origin", [](const core::Joint& joint) { return toPython(joint.origin); },
           "The joint's frame in the frame of the parent link, shape (4, 4).")
@@ -242,21 +266,23 @@ void addRobotModel(py::module_& module)
       "metres.\n\n    robot = gps.RobotModel.from_files(\"robot.urdf\", \"robot.srdf\")")
       .def_static(
           "from_files", &fromFiles, py::arg("urdf"), py::arg("srdf") = py::none(), py::arg("packages") = py::none(),
-          py::arg("unbounded_translation") = 1.0, py::arg("files") = py::none(),
+          py::arg("unbounded_translation") = 1.0, py::arg("files") = py::none(), py::arg("planning") = py::none(),
           "Loads a robot.\n\nurdf, srdf: paths; without an SRDF, adjacent links may touch. A xacro file is expanded if "
           "the program xacro is on PATH; a line on sys.stderr says so. packages: the "
           "folders of ROS packages by name, or a function that returns the folder of a name. With a dict or "
           "without packages, other names are looked up on ROS_PACKAGE_PATH. unbounded_translation: metres; "
           "random translations of planar and floating joints without limits are in [-value, value]. "
           "files: a function that gets the URI of each mesh file and returns the path of the file; None means "
-          "that the usual rules apply.\n\n"
+          "that the usual rules apply. planning: the path of a YAML file with MoveIt's joint_limits, whose position "
+          "limits replace those of the URDF.\n\n"
           "Harmless faults of the files are Python warnings (UserWarning). Raises Error with file and line "
           "for other faults, and for meshes that cannot be read.\n\n"
           "    gps.RobotModel.from_files(\"ur5.urdf\", packages={\"ur5\": \"/path/ur5\"})")
       .def_static("from_xml", &fromXml, py::arg("urdf"), py::arg("srdf") = "", py::arg("packages") = py::none(),
                   py::arg("urdf_folder") = py::none(), py::arg("unbounded_translation") = 1.0,
-                  py::arg("files") = py::none(),
-                  "Loads a robot from the texts of its URDF and SRDF.\n\nurdf_folder: the start of relative paths of "
+                  py::arg("files") = py::none(), py::arg("planning") = "",
+                  "Loads a robot from the texts of its URDF and SRDF.\n\nplanning: the text of a YAML file with "
+                  "MoveIt's joint_limits. urdf_folder: the start of relative paths of "
                   "meshes; without it they are refused. Everything else is as in from_files.\n\n"
                   "    gps.RobotModel.from_xml(pathlib.Path(\"robot.urdf\").read_text())")
       .def_property_readonly("name", &RobotModel::name)
@@ -324,7 +350,7 @@ void addRobotModel(py::module_& module)
            "for another shape. Ctrl-C ends a long call.\n\n"
            "    poses = robot.link_poses(states)\n    tool = poses[:, robot.link_index(\"palm\")]")
       .def_static("_from_files_with_texts", &withTexts, py::arg("urdf"), py::arg("srdf"), py::arg("packages"),
-                  py::arg("files"),
+                  py::arg("files"), py::arg("planning"),
                   "from_files, and the texts of the URDF and of the SRDF. For the robots of bulk runs.")
       .def("__repr__", [](const RobotModel& robot) { return "<RobotModel '" + robot.name() + "'>"; });
 }

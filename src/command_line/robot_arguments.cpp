@@ -2,6 +2,8 @@
 
 #include <iostream>
 
+#include "gpu_planning_scene/planning_file.h"
+
 namespace gpu_planning_scene::core
 {
 Option packageOption()
@@ -16,6 +18,8 @@ std::vector<Option> robotOptions()
           {"--srdf", "FILE",
            "groups, and pairs of links that are not checked;\nwithout it, adjacent links are not checked"},
           packageOption(),
+          {"--planning", "FILE",
+           "position limits: a YAML file with MoveIt's joint_limits; they\nreplace those of the URDF"},
           {"--unbounded-translation", "METRES",
            "planar and floating joints without limits: random positions\nare from -METRES to METRES (default 1)"}};
 }
@@ -57,6 +61,8 @@ std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, const 
   RobotModelOptions options;
   options.packages = packagesFrom(arguments);
   options.unbounded_translation = arguments.number("--unbounded-translation", options.unbounded_translation, 0.0, 1e6);
+  if (const std::string planning = arguments.value("--planning", ""); !planning.empty())
+    options.position_limits = readPositionLimits(planning, warnings);
   options.info = [](const std::string& line) { std::cerr << line << "\n"; };
   return RobotModel::fromFiles(arguments.required("--urdf"), srdf, options, warnings);
 }

@@ -2,6 +2,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/text/name_list.h"
+#include "model/text/number_text.h"
 #include "model/virtual_joint.h"
 
 namespace gpu_planning_scene::core
@@ -14,6 +15,16 @@ std::string variableNames(const RobotModel& robot)
   for (const Variable& variable : robot.variables())
     names.push_back(variable.name);
   return nameList(names);
+}
+
+/// The variables of the joints that the SRDF lists as passive, without the virtual joint and joints that mimic others.
+std::vector<std::size_t> passiveVariables(const RobotModel& robot)
+{
+  std::vector<std::size_t> variables;
+  for (const Joint& joint : robot.joints())
+    for (int i = 0; joint.passive && !joint.mimic && joint.parent_link >= 0 && i < variableCount(joint.type); ++i)
+      variables.push_back(static_cast<std::size_t>(joint.first_variable + i));
+  return variables;
 }
 
 std::string whyNoVariable(const RobotModel& robot, const std::string& name)
@@ -34,6 +45,8 @@ PartialState::PartialState(const RobotModel& robot)
 {
   for (const int variable : virtualVariables(robot))
     known[static_cast<std::size_t>(variable)] = true;
+  for (const std::size_t variable : passiveVariables(robot))
+    known[variable] = true;
 }
 
 PartialState::PartialState(const RobotModel& robot, const std::vector<double>& state) : PartialState(robot)
@@ -42,6 +55,18 @@ PartialState::PartialState(const RobotModel& robot, const std::vector<double>& s
     return;
   values = state;
   known.assign(values.size(), true);
+}
+
+std::string assumedPassiveJoints(const RobotModel& robot, const std::vector<bool>& given)
+{
+  const std::vector<double> values = robot.defaultState();
+  std::vector<std::string> assumed;
+  for (const std::size_t variable : passiveVariables(robot))
+    if (!given[variable])
+      assumed.push_back(robot.variables()[variable].name + " = " + numberText(values[variable]));
+  return assumed.empty()
+             ? ""
+             : "no state has set passive joints of the SRDF; they have their default values: " + nameList(assumed);
 }
 
 std::vector<int> variableIndices(const RobotModel& robot, const std::vector<std::string>& names)
@@ -76,7 +101,9 @@ std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& 
     throw Error(
         "no value for " + nameList(missing) +
         "; give values for all joints (a named state takes no further values), or set the current state: with the "
-        "topic joint_states, with robot_state.joint_state in the scene file, or with ~apply_planning_scene");
+        "topic joint_states, with robot_state.joint_state in the scene file, or with ~apply_planning_scene; list "
+        "joints "
+        "that nobody measures, such as casters, as <passive_joint> in the SRDF");
 
   std::vector<double> states(count * width);
   for (std::size_t row = 0; row < count; ++row)

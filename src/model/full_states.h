@@ -10,14 +10,19 @@ namespace gpu_planning_scene::core
 /// A robot state in which some variables may still be unknown.
 struct PartialState
 {
-  /// Only the virtual joint is known.
+  /// Only the virtual joint and the passive joints are known. They have their default values. As in MoveIt, a state is
+  /// complete without passive joints, because often nobody measures them, for example the casters of a base.
   explicit PartialState(const RobotModel& robot);
-  /// All variables are known; only the virtual joint if `state` is empty.
+  /// All variables are known; the same as above if `state` is empty.
   PartialState(const RobotModel& robot, const std::vector<double>& state);
 
   std::vector<double> values;
   std::vector<bool> known;
 };
+
+/// A warning that passive joints have their default values, with these values, for those whose variables are not
+/// `given` (one entry per variable); empty if there are none.
+std::string assumedPassiveJoints(const RobotModel& robot, const std::vector<bool>& given);
 
 /// Finds the variable of each column in a table of states. Throws Error if a name is not a variable of the robot, or is
 /// given twice.

@@ -44,11 +44,53 @@ bool isAngle(const RobotModel& robot, int variable)
   return false;
 }
 
+bool isTranslation(const RobotModel& robot, int variable)
+{
+  for (const Joint& joint : robot.joints())
+  {
+    const int count = joint.type == JointType::Planar ? 2 : joint.type == JointType::Floating ? 3 : 0;
+    if (variable >= joint.first_variable && variable < joint.first_variable + count)
+      return true;
+  }
+  return false;
+}
+
+/// The range that the value is outside of, in words.
+std::string rangeText(const RobotModel& robot, int index, double value)
+{
+  const Variable& variable = robot.variables()[static_cast<std::size_t>(index)];
+  const std::string range = number(variable.lower) + " to " + number(variable.upper);
+  const bool is_within = value >= variable.lower && value <= variable.upper;
+  if (variable.bounded && !is_within)
+    return "outside its limits " + range + (isAngle(robot, index) ? " rad" : "");
+  if (isTranslation(robot, index))
+    return "outside " + range +
+           ", the range of translations without limits; set a larger unbounded_translation, or give the "
+           "request a workspace";
+  return "too large: it, or a joint that follows it, turns by more than " + number(kLargestProvenAngle) + " rad";
+}
+
 bool mayBeDegrees(const RobotModel& robot, int variable, double value)
 {
   // A smaller value is unlikely to be in degrees.
   return std::abs(value) > kTwoTurns && isAngle(robot, variable) &&
          !isOutside(robot.variables()[static_cast<std::size_t>(variable)], value * kPi / 180.0);
+}
+/// The first translation that is beyond kExactRange.
+std::optional<ValueOutsideLimits> findFarTranslation(const RobotModel& robot, const std::vector<int>& columns,
+                                                     const double* rows, std::size_t count)
+{
+  for (std::size_t k = 0; k < columns.size(); ++k)
+  {
+    if (!isTranslation(robot, columns[k]))
+      continue;
+    for (std::size_t row = 0; row < count; ++row)
+      if (const double value = rows[row * columns.size() + k]; std::abs(value) > kExactRange)
+        return ValueOutsideLimits{row, "joint '" + robot.variables()[static_cast<std::size_t>(columns[k])].name +
+                                           "' is " + number(value) + "; answers are exact only within " +
+                                           number(kExactRange) + " m of the origin of the planning frame"};
+  }
+  return std::nullopt;
 }
 }  // namespace
 
@@ -73,9 +115,8 @@ std::string ValuesOutsideLimits::text() const
   const auto variable = [this](int index) -> const Variable&
   { return robot_.variables()[static_cast<std::size_t>(index)]; };
   const Variable& first = variable(first_variable_);
-  std::string line = "joint '" + first.name + "' is " + valueOf(first, first_value_) + ", outside its limits " +
-                     number(first.lower) + " to " + number(first.upper) +
-                     (isAngle(robot_, first_variable_) ? " rad" : "");
+  std::string line = "joint '" + first.name + "' is " + valueOf(first, first_value_) + ", " +
+                     rangeText(robot_, first_variable_, first_value_);
   if (in_degrees_)
     line += "; values are in radians, and " +
             (in_degrees_ == first_variable_ && degrees_ == first_value_
@@ -102,7 +143,7 @@ std::optional<ValueOutsideLimits> findValueOutsideLimits(const RobotModel& robot
         outside.add(column, value);
       }
   if (outside.count() == 0)
-    return std::nullopt;
+    return findFarTranslation(robot, columns, rows - count * columns.size(), count);
   return ValueOutsideLimits{first_row, outside.text()};
 }
 }  // namespace gpu_planning_scene::core

@@ -9,13 +9,22 @@
 
 namespace gpu_planning_scene::core
 {
-/// Collects values that are outside their joint limits, and describes them in one line.
+/// The largest angle of a joint, in radians, at which motions are proven free. Doubles resolve 1.2e-10 rad there; at
+/// larger angles, rounding would move a body by more than the bound of a motion allows.
+constexpr double kLargestProvenAngle = 1e6;
+
+/// The range of coordinates in the planning frame, in metres, within which answers are exact (docs/error_bounds.md).
+constexpr double kExactRange = 1000.0;
+
+/// Collects values that are outside their joint limits or outside another range of their variables, and describes them
+/// in one line.
 class ValuesOutsideLimits
 {
  public:
   explicit ValuesOutsideLimits(const RobotModel& robot) : robot_(robot) {}
 
-  /// Adds a value that is outside the limits of its variable. Radians or metres.
+  /// Adds a value that is outside the limits of its variable; or, in a variable without limits, a translation outside
+  /// its range, or an angle beyond kLargestProvenAngle, also of a joint that follows it. Radians or metres.
   void add(int variable, double value);
 
   std::size_t count() const { return count_; }
@@ -32,15 +41,16 @@ class ValuesOutsideLimits
   double degrees_ = 0.0;           // the value of that variable
 };
 
-/// The first value of a table that is outside its joint limits.
+/// The first value of a table that is outside its joint limits; or, if all are within them, the first translation of a
+/// planar or floating joint beyond kExactRange.
 struct ValueOutsideLimits
 {
   std::size_t row;
-  std::string text;  ///< the line of ValuesOutsideLimits for all such values of the table
+  std::string text;  ///< the line of ValuesOutsideLimits for all such values of the table, or a line about the range
 };
 
 /// `rows`: `count` rows of values for the variables `columns`. No value: nothing is outside the limits by more than
-/// 1e-6 (radians, metres).
+/// 1e-6 (radians, metres), or beyond kExactRange.
 std::optional<ValueOutsideLimits> findValueOutsideLimits(const RobotModel& robot, const std::vector<int>& columns,
                                                          const double* rows, std::size_t count);
 }  // namespace gpu_planning_scene::core

@@ -1,10 +1,11 @@
 #include "model/robot_text.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iterator>
+#include <map>
 
 #include "model/text/name_list.h"
+#include "model/text/number_text.h"
 #include "model/text/one_line.h"
 
 namespace gpu_planning_scene::core
@@ -17,9 +18,7 @@ std::string textOf(const Variable& variable)
 {
   if (!variable.bounded)
     return variable.name;
-  char limits[64];
-  std::snprintf(limits, sizeof limits, " (%.9g to %.9g)", variable.lower, variable.upper);
-  return variable.name + limits;
+  return variable.name + " (" + numberText(variable.lower) + " to " + numberText(variable.upper) + ")";
 }
 
 template <typename Item, typename Text>
@@ -32,6 +31,18 @@ void addLine(std::vector<std::string>& lines, const std::string& heading, const 
   lines.push_back(onOneLine(heading + nameList(names)));
 }
 }  // namespace
+
+std::vector<std::string> describeLimitSources(const RobotModel& robot)
+{
+  std::map<std::string, std::vector<std::string>> limited;  // by source
+  for (const Variable& variable : robot.variables())
+    if (!variable.limits_source.empty())
+      limited[variable.limits_source].push_back(textOf(variable));
+  std::vector<std::string> lines;
+  for (const auto& [source, variables] : limited)
+    lines.push_back(onOneLine("limits from " + source + ": " + nameList(variables)));
+  return lines;
+}
 
 std::vector<std::string> describeRobot(const RobotModel& robot)
 {

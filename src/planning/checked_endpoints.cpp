@@ -5,6 +5,7 @@
 #include "collision/bounds/reach.h"
 #include "collision/problem/state_validation.h"
 #include "model/joint_limits.h"
+#include "model/text/number_text.h"
 
 namespace gpu_planning_scene::core
 {
@@ -19,28 +20,21 @@ struct Fault
   std::string message;
 };
 
-/// True if a variable has a range in a GroupStateSpace: it has limits, or it is a translation.
-bool hasRange(const RobotModel& robot, int variable)
-{
-  if (robot.variables()[static_cast<std::size_t>(variable)].bounded)
-    return true;
-  for (const Joint& joint : robot.joints())
-  {
-    const int translations = joint.type == JointType::Planar ? 2 : joint.type == JointType::Floating ? 3 : 0;
-    if (!joint.mimic && variable >= joint.first_variable && variable < joint.first_variable + translations)
-      return true;
-  }
-  return false;
-}
-
-Fault outOfBounds(const RobotModel& robot, const GroupStateSpace& space, const double* row)
+Fault outOfBounds(const RobotModel& robot, const GroupStateSpace& space, const PlanningQuery& query, const double* row)
 {
   ValuesOutsideLimits outside(robot);
-  for (const int variable : space.variables())
+  for (std::size_t i = 0; i < space.variables().size(); ++i)
   {
-    const Variable& limits = robot.variables()[static_cast<std::size_t>(variable)];
-    if (hasRange(robot, variable) && (row[variable] < limits.lower || row[variable] > limits.upper))
-      outside.add(variable, row[variable]);
+    const int index = space.variables()[i];
+    const Variable& variable = robot.variables()[static_cast<std::size_t>(index)];
+    const auto [lower, upper] = space.ranges()[i];
+    if (row[index] >= lower && row[index] <= upper)
+      continue;
+    if (query.workspace && !(variable.bounded && (row[index] < variable.lower || row[index] > variable.upper)))
+      return {PlanningStatus::OutOfBounds, "out of bounds: joint '" + variable.name + "' is " + numberText(row[index]) +
+                                               ", outside the workspace of the request, " + numberText(lower) + " to " +
+                                               numberText(upper)};
+    outside.add(index, row[index]);
   }
   if (outside.count() == 0)
     return {};
@@ -50,7 +44,7 @@ Fault outOfBounds(const RobotModel& robot, const GroupStateSpace& space, const d
 /// A joint beyond its limits makes every proof of a motion impossible, even if the group does not move this joint.
 Fault outsideOfProof(const RobotModel& robot, const double* row)
 {
-  const ValuesOutsideLimits outside = valuesOutside(limitRanges(robot), robot, row);
+  const ValuesOutsideLimits outside = valuesOutside(provenRanges(robot), robot, row);
   if (outside.count() == 0)
     return {};
   return {PlanningStatus::OutOfBounds,
@@ -85,7 +79,7 @@ std::vector<Fault> faultsOf(const PlanningScene& scene, StateChecker& checker, c
     if (i == 0 && query.motions.rule == MotionRule::Bound)
       fault = outsideOfProof(*scene.robot, row);
     if (fault.message.empty())
-      fault = outOfBounds(*scene.robot, space, row);
+      fault = outOfBounds(*scene.robot, space, query, row);
     if (fault.message.empty() && found.valid[i] == 0)
       fault = {
           i == 0 ? PlanningStatus::StartInCollision : PlanningStatus::GoalInCollision,

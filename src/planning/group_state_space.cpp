@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <ompl/base/ProjectionEvaluator.h>
@@ -68,35 +69,57 @@ int translationCount(JointType type)
   }
 }
 
-ob::RealVectorBounds translationBounds(const RobotModel& robot, const Joint& joint)
+using Workspace = std::optional<Eigen::AlignedBox3d>;
+
+/// The bounds of each variable of the joint, see GroupStateSpace::ranges.
+std::vector<std::pair<double, double>> rangesOf(const RobotModel& robot, const Joint& joint, const Workspace& workspace)
+{
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<std::pair<double, double>> ranges;
+  for (int i = 0; i < variableCount(joint.type); ++i)
+  {
+    const Variable& variable = robot.variables()[joint.first_variable + i];
+    const bool is_translation =
+        !hasLimits(joint) && joint.type != JointType::Continuous && i < translationCount(joint.type);
+    std::pair<double, double> range(-kInfinity, kInfinity);
+    if (variable.bounded || (is_translation && !workspace))
+      range = {variable.lower, variable.upper};
+    if (is_translation && workspace)
+      range = {std::max(range.first, workspace->min()[i]), std::min(range.second, workspace->max()[i])};
+    ranges.push_back(range);
+  }
+  return ranges;
+}
+
+ob::RealVectorBounds translationBounds(const Joint& joint, const std::vector<std::pair<double, double>>& ranges)
 {
   const int count = translationCount(joint.type);
   ob::RealVectorBounds bounds(count);
   for (int i = 0; i < count; ++i)
   {
-    const Variable& variable = robot.variables()[joint.first_variable + i];
-    if (rangeOf(variable) < kLeastRange)
+    const auto [lower, upper] = ranges[static_cast<std::size_t>(i)];
+    if (!(upper - lower >= kLeastRange))
       throw Error("joint '" + joint.name + "' cannot be planned for: its translations have no range; set " +
-                  "unbounded_translation above 0");
-    bounds.setLow(i, variable.lower);
-    bounds.setHigh(i, variable.upper);
+                  "unbounded_translation above 0, or give a workspace that its limits meet");
+    bounds.setLow(i, lower);
+    bounds.setHigh(i, upper);
   }
   return bounds;
 }
 
 /// The space of a joint without limits. Its values are in the order of the joint's variables.
-ob::StateSpacePtr spaceOf(const RobotModel& robot, const Joint& joint)
+ob::StateSpacePtr spaceOf(const Joint& joint, const std::vector<std::pair<double, double>>& ranges)
 {
   if (joint.type == JointType::Planar)
   {
     const auto space = std::make_shared<ob::SE2StateSpace>();
-    space->setBounds(translationBounds(robot, joint));
+    space->setBounds(translationBounds(joint, ranges));
     return space;
   }
   if (joint.type == JointType::Floating)
   {
     const auto space = std::make_shared<ob::SE3StateSpace>();
-    space->setBounds(translationBounds(robot, joint));
+    space->setBounds(translationBounds(joint, ranges));
     return space;
   }
   return std::make_shared<ob::SO2StateSpace>();
@@ -204,7 +227,8 @@ class ValueProjection : public ob::ProjectionEvaluator
 };
 }  // namespace
 
-GroupStateSpace::GroupStateSpace(std::shared_ptr<const RobotModel> robot, const std::string& group)
+GroupStateSpace::GroupStateSpace(std::shared_ptr<const RobotModel> robot, const std::string& group,
+                                 const std::optional<Eigen::AlignedBox3d>& workspace)
   : robot_(std::move(robot)), group_(&robot_->group(group))
 {
   setName(group);
@@ -223,9 +247,11 @@ GroupStateSpace::GroupStateSpace(std::shared_ptr<const RobotModel> robot, const 
   {
     for (int i = 0; i < variableCount(joint->type); ++i)
       variables_.push_back(joint->first_variable + i);
+    const std::vector<std::pair<double, double>> ranges = rangesOf(*robot_, *joint, workspace);
+    ranges_.insert(ranges_.end(), ranges.begin(), ranges.end());
     if (hasLimits(*joint))
       continue;
-    const ob::StateSpacePtr space = spaceOf(*robot_, *joint);
+    const ob::StateSpacePtr space = spaceOf(*joint, ranges);
     space->setName(joint->name);
     addSubspace(space, kWeight);
   }

@@ -20,6 +20,7 @@
 #include "gpu_planning_scene/planning/path_length_objective.h"
 #include "gpu_planning_scene/planning/path_shortcutter.h"
 #include "gpu_planning_scene/planning/state_validity_checker.h"
+#include "model/joint_limits.h"
 #include "model/seconds_since.h"
 #include "planning/checked_endpoints.h"
 #include "planning/counted_checker.h"
@@ -46,27 +47,30 @@ void validateRow(const RobotModel& robot, const std::vector<double>& row, const 
       throw Error(what + ": " + robot.variables()[i].name + " is " + std::to_string(row[i]) + "; it must be finite");
 }
 
-/// Refuses angles of very many turns, because doubles resolve them too coarsely.
-void refuseManyTurns(const RobotModel& robot, const std::vector<double>& start)
+/// Refuses angles of very many turns, because doubles resolve them too coarsely. The state space wraps them to one
+/// turn.
+void refuseManyTurns(const RobotModel& robot, const std::vector<double>& row, const std::string& what)
 {
-  constexpr double kMax = 1e6;  // radians; doubles resolve 1e-10 there
   for (const Joint& joint : robot.joints())
   {
     const int angle = joint.mimic ? -1 : wrappedAngle(joint);
-    if (angle >= 0 && std::abs(start[static_cast<std::size_t>(angle)]) > kMax)
-      throw Error("the start: " + robot.variables()[static_cast<std::size_t>(angle)].name + " is " +
-                  std::to_string(start[static_cast<std::size_t>(angle)]) + " rad; it must be from -1e6 to 1e6");
+    if (angle >= 0 && std::abs(row[static_cast<std::size_t>(angle)]) > kLargestProvenAngle)
+      throw Error(what + ": " + robot.variables()[static_cast<std::size_t>(angle)].name + " is " +
+                  std::to_string(row[static_cast<std::size_t>(angle)]) + " rad; it must be from -1e6 to 1e6");
   }
 }
 
 void validateQuery(const PlanningScene& scene, const PlanningQuery& query)
 {
   validateRow(*scene.robot, query.start, "the start");
-  refuseManyTurns(*scene.robot, query.start);
+  refuseManyTurns(*scene.robot, query.start, "the start");
   if (query.goals.empty())
     throw Error("there is no goal; give at least one");
   for (std::size_t i = 0; i < query.goals.size(); ++i)
+  {
     validateRow(*scene.robot, query.goals[i], "goal " + std::to_string(i));
+    refuseManyTurns(*scene.robot, query.goals[i], "goal " + std::to_string(i));
+  }
   constexpr double kMaxSeconds = 1e9;  // OMPL's clock counts nanoseconds in integers
   if (!(query.seconds > 0.0 && query.seconds <= kMaxSeconds))
     throw Error("the planning time is " + std::to_string(query.seconds) + " s; it must be above 0 and at most 1e9");
@@ -104,7 +108,7 @@ class Plan
       checker_(std::make_shared<CountedChecker>(checker)),
       query_(query),
       stop_(stop),
-      space_(std::make_shared<GroupStateSpace>(scene->robot, query.group)),
+      space_(std::make_shared<GroupStateSpace>(scene->robot, query.group, query.workspace)),
       information_(std::make_shared<ob::SpaceInformation>(space_)),
       start_(space_)
   {

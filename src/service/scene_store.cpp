@@ -74,7 +74,9 @@ void assign(const RobotModel& robot, const std::map<std::string, double>& variab
 
 bool Snapshot::allKnown() const
 {
-  const std::vector<bool> all = base.values.empty() ? known : partialState().known;
+  std::vector<bool> all = partialState().known;
+  for (const int variable : virtualVariables(*scene->robot))
+    all[static_cast<std::size_t>(variable)] = known[static_cast<std::size_t>(variable)] || !base.values.empty();
   return std::find(all.begin(), all.end(), false) == all.end();
 }
 
@@ -132,6 +134,9 @@ SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits 
 {
   state_ = PartialState(*scene.robot, scene.current_state).values;
   known_.assign(state_.size(), !scene.current_state.empty());
+  if (scene.base_is_default)
+    for (const int variable : virtual_variables_)
+      known_[static_cast<std::size_t>(variable)] = false;
   stamps_.assign(state_.size(), 0);
   measured_at_.assign(state_.size(), Clock::time_point::min());
   scene_ = std::make_shared<const PlanningScene>(std::move(scene));

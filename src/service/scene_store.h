@@ -37,10 +37,11 @@ struct Snapshot
   /// The oldest stamp (nanoseconds) of the known values; 0: a known value has no stamp, or no value is known.
   std::int64_t stamp = 0;
 
-  /// Whether all variables are known. The virtual joint counts as known if `base` has values.
+  /// Whether all variables are known. The virtual joint counts as known if `base` has values. Passive joints always
+  /// count as known.
   bool allKnown() const;
   /// The state with the variables that are known. The virtual joint always counts as known: without a value, the robot
-  /// stands at the origin of the planning frame.
+  /// stands at the origin of the planning frame. Passive joints without a value have their default value.
   PartialState partialState() const;
   /// A warning if this pose of the robot is only assumed and `given` does not set the virtual joint; otherwise empty.
   std::string assumedBase(const std::vector<int>& given) const;

@@ -82,6 +82,11 @@ class StatesOfFile : public StateSource
       if (const auto outside = findValueOutsideLimits(robot, columns, table.values.data(), table.rows))
         warning_ = path + ":" + std::to_string(outside->row + 2) + ": " + outside->text;
       const PartialState current(robot, scene.current_state);
+      std::vector<bool> given(width_, !scene.current_state.empty());
+      for (const int column : columns)
+        given[static_cast<std::size_t>(column)] = true;
+      if (const std::string passive = assumedPassiveJoints(robot, given); !passive.empty())
+        warning_ += (warning_.empty() ? "" : "; ") + passive;
       states_ = fullStates(robot, columns, table.values.data(), table.rows, current);
     }
     catch (const Error& error)

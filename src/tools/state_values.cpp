@@ -18,6 +18,8 @@ std::vector<double> startState(const PlanningScene& scene)
 
 std::string setValues(const RobotModel& robot, const std::string& text, std::vector<double>& state)
 {
+  if (text.empty())
+    throw UsageError("--state: the text is empty; give NAME=VALUE or the name of a state of the SRDF");
   std::set<int> columns;
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');)

@@ -1,10 +1,27 @@
 """The example plan_a_motion plans for any group of any robot, between values and named states."""
+import contextlib
 import pathlib
 import re
 import subprocess
 import sys
 import tempfile
 import unittest
+
+
+@contextlib.contextmanager
+def mixed_chain():
+    """A URDF and an SRDF: a chain of seven joints, of which the odd ones are continuous and the others have limits."""
+    urdf = '<robot name="chain"><link name="link_0"/>'
+    for i in range(1, 8):
+        urdf += (f'<link name="link_{i}"/><joint name="joint_{i}" type="{"continuous" if i % 2 else "revolute"}">'
+                 f'<parent link="link_{i - 1}"/><child link="link_{i}"/><origin xyz="0 0 0.2"/>'
+                 '<limit lower="-2" upper="2" effort="1" velocity="1"/></joint>')
+    with tempfile.TemporaryDirectory() as folder:
+        paths = [pathlib.Path(folder, name) for name in ("chain.urdf", "chain.srdf")]
+        paths[0].write_text(urdf + "</robot>", encoding="utf-8")
+        paths[1].write_text('<robot name="chain"><group name="arm"><chain base_link="link_0" tip_link="link_7"/></group>'
+                            '</robot>', encoding="utf-8")
+        yield [str(path) for path in paths]
 
 
 class PlanAMotion(unittest.TestCase):
@@ -48,8 +65,41 @@ class PlanAMotion(unittest.TestCase):
         answer = self.slider("drive", "-1", "1,0")
         self.assertEqual(answer.returncode, 1)
         self.assertEqual(
-            answer.stderr, "plan_a_motion: '-1' has 1 value; the group has the variables slide,turn\n"
+            answer.stderr, "plan_a_motion: '-1' has 1 value; the group plans for slide,turn, in this order\n"
         )
+
+    def test_values_are_in_the_order_of_the_robot_also_where_joints_without_limits_are_between_others(self):
+        start = "0.5,0.26,-0.4,0.3,0.2,-0.1,0.7"
+        goal = "0.6,0.3,-0.5,0.2,0.1,0.1,0.8"
+        with mixed_chain() as (urdf, srdf):
+            plain = self.plan(urdf, srdf, "arm", start, goal)
+            by_name = self.plan(urdf, srdf, "arm", *(",".join(reversed([
+                f"joint_{i}={value}" for i, value in enumerate(text.split(","), 1)])) for text in (start, goal)))
+        for answer in (plain, by_name):
+            rows = self.rows(answer)
+            self.assertEqual(" ".join(f"joint_{i}" for i in range(1, 8)), answer.stdout.splitlines()[0])
+            for row, text in ((rows[0], start), (rows[-1], goal)):
+                for value, expected in zip(row, text.split(",")):
+                    self.assertAlmostEqual(float(expected), value, 5)
+
+    def test_variables_without_a_name_keep_their_values(self):
+        with mixed_chain() as (urdf, srdf):
+            rows = self.rows(self.plan(urdf, srdf, "arm", "joint_2=0.25", "joint_3=0.5"))
+        self.assertEqual([0.0, 0.25, 0.0, 0.0, 0.0, 0.0, 0.0], rows[0])
+        self.assertEqual([0.0, 0.25, 0.5, 0.0, 0.0, 0.0, 0.0], rows[-1])
+
+    def test_ambiguous_values_are_refused(self):
+        for start, fault in (
+            ("slide=1,0.5", "'slide=1,0.5': give a name for each value or for none"),
+            ("slide=1,slide=2", "'slide=1,slide=2': 'slide' is given twice"),
+            ("slied=1", "'slied=1': the group does not plan for a variable 'slied'; its variables are slide,turn"),
+            ("slide=", "'slide=': '' is not a number"),
+            ("1,0.5e", "'1,0.5e': '0.5e' is not a number"),
+            ("1,", "'1,' has 1 value; the group plans for slide,turn, in this order"),
+            ("1,2,3", "'1,2,3' has 3 values; the group plans for slide,turn, in this order"),
+        ):
+            answer = self.slider("drive", start, "1,0")
+            self.assertEqual((1, f"plan_a_motion: {fault}\n"), (answer.returncode, answer.stderr))
 
     def test_plans_between_the_states_of_the_demos_arm(self):
         arm = f"{SOURCE}/config/demo/arm"

@@ -63,5 +63,38 @@ TEST_F(JointLimits, DegreesAreSuggestedAlsoIfTheFirstValueIsSmall)
             "joint 'lift' is 3, outside its limits -1 to 2; values are in radians, and joint 'arm' is 90: 90 degrees "
             "are 1.5708 rad; 1 more value is outside the limits");
 }
+
+/// Robots on a map, for example with UTM coordinates, may be far from the origin of their planning frame.
+TEST(FarTranslations, AreNamedBecauseAnswersAreNotExactThere)
+{
+  const auto robot = robotOf(boxLink("base"),
+                             "<virtual_joint name=\"drive\" type=\"planar\" parent_frame=\"map\" "
+                             "child_link=\"base\"/>");
+  const std::vector<int> columns = {0, 1, 2};
+  const std::vector<double> rows = {1000.0, -1000.0, 5000.0, 0.0, -4e5, 0.0};
+  EXPECT_FALSE(findValueOutsideLimits(*robot, columns, rows.data(), 1)) << "the last value is an angle";
+  const auto found = findValueOutsideLimits(*robot, columns, rows.data(), 2);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(1u, found->row);
+  EXPECT_EQ("joint 'drive/y' is -400000; answers are exact only within 1000 m of the origin of the planning frame",
+            found->text);
+}
+
+TEST(OutsideOtherRanges, AreTranslationsAndLargeAngles)
+{
+  const auto robot = robotOf(boxLink("base") + boxLink("arm") + jointXml("pan", "continuous", "base", "arm"),
+                             "<virtual_joint name=\"drive\" type=\"planar\" parent_frame=\"map\" "
+                             "child_link=\"base\"/>");
+  ValuesOutsideLimits far(*robot);
+  far.add(robot->variableIndex("drive/x"), 3.0);
+  EXPECT_EQ(
+      "joint 'drive/x' is 3, outside -1 to 1, the range of translations without limits; set a larger "
+      "unbounded_translation, or give the request a workspace",
+      far.text());
+  ValuesOutsideLimits turned(*robot);
+  turned.add(robot->variableIndex("pan"), 2e9);
+  EXPECT_EQ("joint 'pan' is 2e+09, too large: it, or a joint that follows it, turns by more than 1e+06 rad",
+            turned.text());
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core

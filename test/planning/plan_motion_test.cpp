@@ -340,6 +340,80 @@ TEST(PlanMotion, SuggestsDegreesForAGoalThatTheyWouldFit)
             "joint 'tilt' is 90: 90 degrees are 1.5708 rad; 1 more value is outside the limits");
 }
 
+/// The range in which a base is planned for.
+class BaseGoals : public testing::Test
+{
+ public:
+  BaseGoals()
+  {
+    wanted.group = "base";
+    wanted.start = {0.0, 0.0, 0.0};
+    wanted.goals = {{3.0, 0.0, 0.5}};
+    wanted.seconds = 20.0;
+  }
+
+  PlanningResult plan(const std::vector<PositionLimits>& limits = {}) const
+  {
+    RobotModelOptions options;
+    options.position_limits = limits;
+    const auto robot = RobotModel::fromXml(
+        "<robot name='r'>" + boxLink("body") + "</robot>",
+        "<robot name='r'><virtual_joint name='drive' type='planar' parent_frame='world' child_link='body'/>"
+        "<group name='base'><joint name='drive'/></group></robot>",
+        options);
+    const auto scene = std::make_shared<const PlanningScene>(robot);
+    return planMotion(scene, std::make_shared<CpuChecker>(scene), wanted, Factory<BatchRrtConnect>());
+  }
+
+  static Eigen::AlignedBox3d workspace(double size)
+  {
+    return {Eigen::Vector3d::Constant(-size), Eigen::Vector3d::Constant(size)};
+  }
+
+  PlanningQuery wanted;
+};
+
+TEST_F(BaseGoals, BeyondUnboundedTranslationNameTheParameter)
+{
+  const PlanningResult result = plan();
+  EXPECT_EQ(PlanningStatus::OutOfBounds, result.status);
+  EXPECT_EQ(
+      "the goal is out of bounds: joint 'drive/x' is 3, outside -1 to 1, the range of translations without "
+      "limits; set a larger unbounded_translation, or give the request a workspace",
+      result.message);
+}
+
+TEST_F(BaseGoals, AreReachedWithinTheWorkspaceOfTheRequest)
+{
+  wanted.workspace = workspace(4.0);
+  EXPECT_EQ(PlanningStatus::Solved, plan().status);
+  wanted.workspace = workspace(2.0);
+  const PlanningResult result = plan();
+  EXPECT_EQ(PlanningStatus::OutOfBounds, result.status);
+  EXPECT_EQ("the goal is out of bounds: joint 'drive/x' is 3, outside the workspace of the request, -2 to 2",
+            result.message);
+  wanted.workspace = Eigen::AlignedBox3d(Eigen::Vector3d(1.0, -1.0, 0.0), Eigen::Vector3d(4.0, 1.0, 0.0));
+  EXPECT_EQ("the start is out of bounds: joint 'drive/x' is 0, outside the workspace of the request, 1 to 4",
+            plan().message);
+}
+
+TEST_F(BaseGoals, StayWithinTheLimitsOfTheJoint)
+{
+  wanted.workspace = workspace(10.0);
+  const PlanningResult result = plan({{"drive/x", -2.0, 2.0, "limits.yaml"}});
+  EXPECT_EQ(PlanningStatus::OutOfBounds, result.status);
+  EXPECT_EQ("the goal is out of bounds: joint 'drive/x' is 3, outside its limits -2 to 2", result.message);
+  EXPECT_EQ(PlanningStatus::Solved, plan({{"drive/x", -2.0, 3.5, "limits.yaml"}}).status);
+  wanted.workspace.reset();
+  EXPECT_EQ(PlanningStatus::Solved, plan({{"drive/x", -2.0, 3.5, "limits.yaml"}}).status);
+}
+
+TEST_F(BaseGoals, BeyondAMillionRadiansAreRefused)
+{
+  wanted.goals = {{0.0, 0.0, 2e9}};
+  EXPECT_EQ("goal 0: drive/theta is 2000000000.000000 rad; it must be from -1e6 to 1e6", errorOf([this] { plan(); }));
+}
+
 /// A body that moves in the plane, and a body that floats.
 class Moving : public testing::TestWithParam<const char*>
 {

@@ -4,7 +4,7 @@ import unittest
 import numpy as np
 
 import gpu_planning_scene as gps
-from robots import Case, arm_scene, rail
+from robots import RAIL, Case, arm_scene, rail
 from signals import pressed_during_a_call
 
 
@@ -100,9 +100,24 @@ class Planning(Case):
             (gps.Error, "the seed is 0; it must be from 1 to 4294967295", ("all", [0.0], [1.0]), {"seed": 0}),
             (gps.Error, "the seed is 4294967296", ("all", [0.0], [1.0]), {"seed": 2**32}),
             (TypeError, "whole number", ("all", [0.0], [1.0]), {"seed": -1}),
+            (TypeError, "a pair of corners", ("all", [0.0], [1.0]), {"workspace": 3.0}),
+            (gps.Error, "the first must not be above", ("all", [0.0], [1.0]), {"workspace": ([1, 0, 0], [0, 0, 0])}),
         ):
             self.assert_one_line(error, pattern, gps.plan_motion, checker, *arguments, **options)
         self.assert_one_line(TypeError, "expected a StateChecker", gps.plan_motion, None, "all", [0.0], [1.0])
+
+    def test_a_base_is_planned_for_within_the_workspace(self):
+        srdf = ('<robot name="rail"><virtual_joint name="drive" type="planar" parent_frame="map" child_link="rail"/>'
+                '<group name="base"><joint name="drive"/></group></robot>')
+        robot = gps.RobotModel.from_xml(RAIL, srdf)
+        checker = gps.StateChecker(gps.PlanningScene(robot), device="cpu")
+        start, goal = np.zeros((2, len(robot.variables)))
+        goal[robot.variable_index("drive/x")] = 3.0
+        result = gps.plan_motion(checker, "base", start, goal)
+        self.assertEqual(gps.PlanningStatus.OUT_OF_BOUNDS, result.status)
+        self.assertIn("unbounded_translation", result.message)
+        result = gps.plan_motion(checker, "base", start, goal, workspace=([-4, -4, 0], [4, 4, 0]))
+        self.assertEqual(gps.PlanningStatus.SOLVED, result.status)
 
     def test_parameters_reach_the_planner(self):
         checker = gps.StateChecker(gps.PlanningScene(rail()), device="cpu")

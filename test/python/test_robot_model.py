@@ -9,6 +9,7 @@ import unittest
 import numpy as np
 
 import gpu_planning_scene as gps
+from gpu_planning_scene.bulk.bundle import RobotBundle
 from robots import ARM, EXPAND, RAIL, RAIL_SRDF, RAIL_XACRO, Case, arm, kr5, rail, xacro
 
 MESH = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n"
@@ -44,6 +45,29 @@ class RobotModel(Case):
     def test_a_robot_needs_no_srdf(self):
         self.assertEqual([], gps.RobotModel.from_files(str(ARM)).groups)
         self.assertEqual([], gps.RobotModel.from_files(ARM, None).groups)
+
+    def test_the_limits_of_a_planning_file_replace_those_of_the_urdf(self):
+        text = "joint_limits: {shoulder: {min_position: 0.25, max_position: 0.5}}"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "limits.yaml")
+            path.write_text(text, encoding="utf-8")
+            robots = {str(path): gps.RobotModel.from_files(ARM, planning=path),
+                      "planning": gps.RobotModel.from_xml(ARM.read_text(), planning=text)}
+            bundle = RobotBundle.from_files(ARM, planning=path)
+        robots["planning, in a bundle"] = bundle.load()
+        self.assertNotEqual(bundle.digest, RobotBundle.from_files(ARM).digest)
+        for source, robot in robots.items():
+            shoulder = robot.variables[robot.variable_index("shoulder")]
+            self.assertEqual((0.25, 0.5, source.split(",")[0]),
+                             (shoulder.lower, shoulder.upper, shoulder.limits_source))
+            states = robot.random_states(100, seed=1)[:, robot.variable_index("shoulder")]
+            self.assertTrue(((states >= 0.25) & (states <= 0.5)).all())
+            self.assertEqual("", robot.variables[robot.variable_index("elbow")].limits_source)
+        self.assert_one_line(gps.Error, "planning:1: 'shoulder': unknown key 'max_positon'; did you mean "
+                             "'max_position'?", gps.RobotModel.from_xml, ARM.read_text(),
+                             planning=text.replace("max_position", "max_positon"))
+        with self.assertWarnsRegex(UserWarning, "the robot does not have the joint: shulder"):
+            gps.RobotModel.from_xml(ARM.read_text(), planning=text.replace("shoulder", "shulder"))
 
     def test_indices_and_names_agree(self):
         robot = arm()

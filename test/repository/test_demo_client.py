@@ -39,6 +39,15 @@ class Variables(unittest.TestCase):
         elbow = demo_client.variables_of(URDF)[0]
         self.assertEqual((elbow.lower, elbow.upper), (-1.0, 2.0))
 
+    def test_have_the_soft_limits_of_the_urdf_and_those_of_joint_limits(self):
+        soft = '<limit lower="-1" upper="2"/><safety_controller soft_lower_limit="-0.5" soft_upper_limit="3"/>'
+        urdf = URDF.replace('<limit lower="-1" upper="2"/>', soft)
+        self.assertEqual(demo_client.variables_of(urdf)[0], ("elbow", -0.5, 2.0))
+        limits = {"elbow": {"min_position": -3.0, "has_velocity_limits": True}, "wheel": {"max_position": 1.0}}
+        variables = demo_client.variables_of(urdf, limits)
+        self.assertEqual(variables[0], ("elbow", -3.0, 2.0))
+        self.assertGreater(variables[2].upper, 3.0)
+
 
 class RandomStates(unittest.TestCase):
     def setUp(self):
@@ -93,7 +102,7 @@ class Call(unittest.TestCase):
         Response = collections.namedtuple("Response", "success message valid body_1 body_2 seconds")
         response = Response(True, "values are in radians", bytes([1, 1]), ["", ""], ["", ""], 0.5)
         rospy = mock.Mock()
-        rospy.get_param.return_value = URDF
+        rospy.get_param.side_effect = lambda name, default=URDF: default
         rospy.ServiceProxy.return_value = lambda **request: response
         arguments = mock.Mock(around=None, states=2, seed=1, spread=0.2, group="")
         modules = {"rospy": rospy, "gpu_planning_scene": mock.Mock(), "gpu_planning_scene.srv": mock.Mock()}

@@ -495,6 +495,26 @@ TEST_F(SceneFile, TransformsAreMotionsFromTheOriginOfTheJoint)
   }
 }
 
+TEST_F(SceneFile, LeavesTheVirtualJointToTheNodeUnlessAnObjectIsPlacedByALink)
+{
+  const auto robot = sliderRobotOnFloor("planar");
+  const std::string state = "robot_state: {joint_state: {name: [slide, turn], position: [1, 2]}}\n";
+  const auto object_in = [](const std::string& frame)
+  {
+    return "world: {collision_objects: [{id: box, header: {frame_id: " + frame +
+           "}, primitives: [{type: box, dimensions: [1, 1, 1]}]}]}\n";
+  };
+  EXPECT_TRUE(load(state, robot).base_is_default);
+  EXPECT_TRUE(load(state + object_in("hall"), robot).base_is_default);
+  EXPECT_FALSE(load(state).base_is_default) << "the robot has no virtual joint";
+  EXPECT_FALSE(load("robot_state: {joint_state: {name: [slide, floor/x], position: [1, 2]}}", robot).base_is_default);
+  EXPECT_FALSE(warned("is taken to stand at the origin"));
+  EXPECT_FALSE(load(state + object_in("cart"), robot).base_is_default);
+  EXPECT_TRUE(
+      warned("the robot is taken to stand at the origin of frame 'hall', because the file places objects "
+             "relative to links"));
+}
+
 TEST_F(SceneFile, PaddingIsPerLink)
 {
   const PlanningScene scene = load(R"(

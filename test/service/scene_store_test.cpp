@@ -169,6 +169,43 @@ TEST_F(Store, TheVirtualJointStandsAtTheOriginUntilItIsSet)
   }
 }
 
+TEST_F(Store, TheVirtualJointIsThatOfTheSourceIfASceneFileLeavesItOut)
+{
+  PlanningScene scene(sliderRobotOnFloor("planar"));
+  scene.current_state = scene.robot->defaultState();
+  const auto source = [](std::int64_t) { return AssumedBase{{3.0, 4.0, 0.5}, ""}; };
+  const auto x = static_cast<std::size_t>(scene.robot->variableIndex("floor/x"));
+  EXPECT_EQ(0.0, SceneStore(scene, {}, {}, source).snapshot().state[x]);
+  scene.base_is_default = true;
+  SceneStore store_of_file(scene, {}, {}, source);
+  EXPECT_EQ(3.0, store_of_file.snapshot().state[x]);
+  EXPECT_TRUE(store_of_file.snapshot().allKnown());
+  store_of_file.updateState({{"floor/x", 1.0}});
+  EXPECT_EQ(1.0, store_of_file.snapshot().state[x]);
+}
+
+TEST_F(Store, PassiveJointsHaveTheirDefaultValuesUntilTheyAreSet)
+{
+  std::string srdf = sliderSrdf();
+  srdf.insert(srdf.find("</robot>"), "<passive_joint name=\"turn\"/>");
+  SceneStore casters{PlanningScene(RobotModel::fromXml(sliderUrdf(), srdf, {})), {}, {}};
+  const RobotModel& robot = *casters.snapshot().scene->robot;
+  const double row = 0.5;
+  EXPECT_FALSE(casters.snapshot().allKnown());
+  EXPECT_EQ((std::vector<double>{0.5, 0.0}),
+            fullStates(robot, variableIndices(robot, {"slide"}), &row, 1, casters.snapshot().partialState()));
+  casters.updateState({{"slide", 0.25}});
+  EXPECT_TRUE(casters.snapshot().allKnown());
+  EXPECT_EQ("no state has set passive joints of the SRDF; they have their default values: turn = 0",
+            assumedPassiveJoints(robot, casters.snapshot().known));
+  // A change that places an object relative to a link needs a whole state.
+  SceneChange change = boxIn("pole");
+  EXPECT_NO_THROW(casters.apply(change, unknownFrame));
+  casters.updateState({{"turn", 0.125}});
+  EXPECT_EQ((std::vector<double>{0.25, 0.125}), fullStates(robot, {}, nullptr, 1, casters.snapshot().partialState()));
+  EXPECT_EQ("", assumedPassiveJoints(robot, casters.snapshot().known));
+}
+
 TEST_F(Store, ClearRemovesWhatTheMatrixAllowsTheObjects)
 {
   SceneChange change = boxIn("");

@@ -343,9 +343,9 @@ TEST_F(CheckStates, SaysWhatItIsAndCanDo)
   EXPECT_EQ(3, std::sscanf(version.out.c_str(), "check_states %d.%d.%d\n", &major, &minor, &patch)) << version.out;
   const ProgramOutput help = run({"--help"});
   EXPECT_EQ(0, help.exit_code);
-  for (const char* option :
-       {"--urdf", "--srdf", "--package", "--scene", "--states", "--state", "--random", "--random-base", "--seed",
-        "--group", "valid,body_1,body_2", "--device", "--traversal", "--tolerance", "--out", "--version", "--help"})
+  for (const char* option : {"--urdf", "--srdf", "--package", "--planning", "--scene", "--states", "--state",
+                             "--random", "--random-base", "--seed", "--group", "valid,body_1,body_2", "--device",
+                             "--traversal", "--tolerance", "--out", "--version", "--help"})
     EXPECT_NE(std::string::npos, help.out.find(option)) << option;
 }
 
@@ -464,6 +464,33 @@ TEST_F(CheckStates, BadInputEndsWithOne)
   expectError(checkCsv("slide,turn\n0,0\n\n0,0\n"), 1, "states.csv:3: an empty line");
   expectError(checkCsv("slide,turn\n\"0,0\n"), 1, "states.csv:2: a quotation mark");
   expectError(check({"--random", "1", "--device", "no such renderer"}), 1, "no such renderer");
+}
+
+TEST_F(CheckStates, RandomStatesAreWithinTheLimitsOfThePlanningFile)
+{
+  const std::string planning =
+      folder.write("limits.yaml", "joint_limits: {slide: {min_position: 0.25, max_position: 0.3}}\n");
+  const std::string states = folder.path("states.csv");
+  const ProgramOutput output = check({"--planning", planning, "--random", "50", "--save-states", states});
+  EXPECT_EQ(0, output.exit_code) << output.err;
+  EXPECT_NE(std::string::npos, output.err.find("limits from " + planning + ": slide (0.25 to 0.3)\n")) << output.err;
+  std::ifstream file(states);
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ("slide,turn", line);
+  int count = 0;
+  for (; std::getline(file, line); ++count)
+  {
+    EXPECT_GE(std::stod(line), 0.25);
+    EXPECT_LE(std::stod(line), 0.3);
+  }
+  EXPECT_EQ(50, count);
+
+  const ProgramOutput outside = check({"--planning", planning, "--state", "slide=1"});
+  EXPECT_NE(std::string::npos, outside.err.find("joint 'slide' is 1, outside its limits 0.25 to 0.3")) << outside.err;
+  const ProgramOutput missing = check({"--planning", "/no/limits.yaml", "--random", "1"});
+  EXPECT_EQ(1, missing.exit_code);
+  EXPECT_NE(std::string::npos, missing.err.find("/no/limits.yaml")) << missing.err;
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -2,10 +2,13 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ompl/base/StateSpace.h>
+#include <Eigen/Geometry>
 
 #include "gpu_planning_scene/robot_model.h"
 
@@ -16,7 +19,8 @@ namespace gpu_planning_scene::core
 ///   - one RealVectorStateSpace for all revolute and prismatic joints, with their limits; each dimension is named
 ///     after its joint,
 ///   - an SO2StateSpace for each continuous joint,
-///   - an SE2StateSpace for each planar joint, with its translations bounded by Variable::lower and upper,
+///   - an SE2StateSpace for each planar joint, with its translations bounded by Variable::lower and upper, and by the
+///     workspace,
 ///   - an SE3StateSpace for each floating joint, with the same bounds.
 /// The SO2, SE2 and SE3 spaces have the names of their joints. The space has no values for mimic joints (they follow
 /// their leaders), for passive joints, or for joints whose limits leave no range. Const functions are thread-safe after
@@ -26,12 +30,17 @@ class GroupStateSpace : public ompl::base::CompoundStateSpace
  public:
   /// The space has the name of the group. Throws Error if the group is unknown or has no joint to plan for, if a planar
   /// or floating joint has no range for its translations, or if a continuous joint is not periodic (isPeriodic).
-  GroupStateSpace(std::shared_ptr<const RobotModel> robot, const std::string& group);
+  /// `workspace`: the range of the translations of planar and floating joints, in metres, as workspace_parameters of
+  /// MoveIt. It replaces RobotModelOptions::unbounded_translation, and narrows limits.
+  GroupStateSpace(std::shared_ptr<const RobotModel> robot, const std::string& group,
+                  const std::optional<Eigen::AlignedBox3d>& workspace = std::nullopt);
 
   const std::shared_ptr<const RobotModel>& robot() const { return robot_; }
   const Group& group() const { return *group_; }
   /// Indices of the robot's variables in this space: one per value of a state, in the order of getValueLocations().
   const std::vector<int>& variables() const { return variables_; }
+  /// The lower and the upper bound of each of variables(); infinite for rotations and angles without limits.
+  const std::vector<std::pair<double, double>>& ranges() const { return ranges_; }
 
   /// Writes the values of a state into a row of all variables of the robot. Other variables of the row keep their
   /// values.
@@ -59,6 +68,7 @@ class GroupStateSpace : public ompl::base::CompoundStateSpace
   std::shared_ptr<const RobotModel> robot_;
   const Group* group_;
   std::vector<int> variables_;
+  std::vector<std::pair<double, double>> ranges_;
   std::vector<std::size_t> angles_;     // indices of the values in an SO2StateSpace
   std::vector<std::size_t> rotations_;  // indices of the values that are the x of a quaternion
   std::vector<std::size_t> projected_;  // indices of the values in the default projection

@@ -4,10 +4,12 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <ompl/base/Planner.h>
+#include <Eigen/Geometry>
 
 #include "gpu_planning_scene/motion_checker.h"
 #include "gpu_planning_scene/planning/planner_factory.h"
@@ -30,6 +32,7 @@ struct PlanningQuery
   MotionCheckerOptions motions;
   std::map<std::string, std::string> parameters = {};  ///< of the planner, by OMPL's names
   std::vector<std::string> projection = {};            ///< joints of the planner's projection; empty: the default
+  std::optional<Eigen::AlignedBox3d> workspace = {};   ///< see GroupStateSpace
   /// Above 0: OMPL's random numbers come from this seed. Calls with the same seed give the same path, unless a time
   /// limit ends a search or a proof, or another thread of the process creates generators of OMPL meanwhile. Calls with
   /// a seed run one after the other.
@@ -62,9 +65,9 @@ struct PlanningResult
 /// Plans a motion with the planner that `factory` creates. `scene`: that of the checker (StateChecker::setScene); this
 /// is not verified. `stop` is called from time to time; when it returns true, planning ends early, as soon as the
 /// planner reacts. Thread-safe if each call has a checker of its own. Throws Error for an unknown group, parameter or
-/// projection joint; for a row with a wrong length or a value that is not finite; for an angle of the start beyond 1e6
-/// rad (continuous and planar joints); without a goal; and unless the time is above 0 and at most 1e9 s. Errors of
-/// GroupStateSpace and MotionChecker, and exceptions of the planner, pass through.
+/// projection joint; for a row with a wrong length or a value that is not finite; for an angle of the start or a
+/// goal beyond 1e6 rad (continuous and planar joints); without a goal; and unless the time is above 0 and at most 1e9
+/// s. Errors of GroupStateSpace and MotionChecker, and exceptions of the planner, pass through.
 PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,
                           const PlannerFactory& factory, const std::function<bool()>& stop = {});

@@ -26,23 +26,25 @@ class RobotBundle:
     """A robot. `digest`: the SHA-256 of the content, in hexadecimal."""
     urdf: str
     srdf: str  # empty: none
+    planning: str  # the text of a file with joint_limits; empty: none
     files: Tuple[File, ...]
     digest: str
 
     @staticmethod
     def from_files(urdf: gps.Path, srdf: Optional[gps.Path] = None,
-                   packages: gps.Packages = None) -> RobotBundle:
+                   packages: gps.Packages = None, planning: Optional[gps.Path] = None) -> RobotBundle:
         """Reads a robot. The arguments are those of gpu_planning_scene.RobotModel.from_files. Raises its errors."""
         found = _FoundFiles(os.path.dirname(os.path.abspath(urdf)), packages)
         # pylint: disable-next=protected-access
-        _robot, *texts = gps.RobotModel._from_files_with_texts(urdf, srdf, packages, found)
+        _robot, *texts = gps.RobotModel._from_files_with_texts(urdf, srdf, packages, found, planning)
+        texts.append(_text(planning) if planning else "")
         files = found.read()
         return RobotBundle(*texts, files, _digest(*texts, *_parts(files)))
 
     def load(self) -> gps.RobotModel:
         """The robot, from the content alone."""
         with _unpacked(self.files) as path_of:
-            return gps.RobotModel.from_xml(self.urdf, self.srdf, files=path_of)
+            return gps.RobotModel.from_xml(self.urdf, self.srdf, files=path_of, planning=self.planning)
 
 
 @dataclasses.dataclass(frozen=True)

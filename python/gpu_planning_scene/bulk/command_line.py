@@ -59,7 +59,7 @@ def source_of(arguments: argparse.Namespace, model: gps.RobotModel) -> Source:
 def job_of(arguments: argparse.Namespace) -> Job:
     """Reads all inputs."""
     packages = packages_of(arguments.package)
-    robot = RobotBundle.from_files(arguments.urdf, arguments.srdf, packages)
+    robot = RobotBundle.from_files(arguments.urdf, arguments.srdf, packages, arguments.planning)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)  # they were shown by the line above
         model = robot.load()

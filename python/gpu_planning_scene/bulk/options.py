@@ -40,6 +40,8 @@ def _add_robot_and_scenes(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--srdf", metavar="FILE")
     parser.add_argument("--package", action="append", default=[], metavar="NAME=DIR",
                         help="the folder of a ROS package")
+    parser.add_argument("--planning", metavar="FILE", help="a YAML file with MoveIt's joint_limits, whose position "
+                        "limits replace those of the URDF")
     parser.add_argument("--scene", required=True, metavar="FILE|DIR", help="a scene file, or a folder of scene files")
     parser.add_argument("--group", default="",
                         help="check only pairs with a link that this group moves; plans need it")

@@ -7,7 +7,7 @@ import hashlib
 import io
 import os
 import pathlib
-from typing import Any, Dict, Iterator, List, Optional, Tuple, Union
+from typing import Any, Dict, Iterator, List, Optional, Set, Tuple, Union
 
 import numpy as np
 
@@ -72,18 +72,30 @@ class ArraySlice:
         if self.names is None:
             return np.ascontiguousarray(self.values, dtype=float)
         columns = [robot.variable_index(name) for name in self.names]
-        missing = [name for name in robot.variable_names if name not in self.names]
+        with_default = _variables_with_default(robot)
+        missing = [name for name in robot.variable_names if name not in self.names and name not in with_default]
         if missing and base is None:
             raise gps.Error(f"no value for {', '.join(missing)}: the table has no such column, and the scene has no "
                             "robot_state")
         states = np.empty((len(self.values), len(robot.variables)))
-        states[:] = 0.0 if base is None else base
+        states[:] = robot.default_state() if base is None else base
         states[:, columns] = self.values
         return states
 
     def parts(self, robot: gps.RobotModel, base: Base) -> Iterator[np.ndarray]:
         """The same states in one array, so that messages about wrong values count the states of the slice."""
         yield self.states(robot, base)
+
+
+def _variables_with_default(robot: gps.RobotModel) -> Set[str]:
+    """The variables that need no value: those of the virtual joint and of passive joints, as in the tool check_states."""
+    names = set()
+    for joint in robot.joints:
+        if (joint.parent_link < 0 or joint.passive) and not joint.mimic and joint.first_variable >= 0:
+            name = robot.variable_names[joint.first_variable]
+            names |= {other for other in robot.variable_names
+                      if other == name or other.startswith(joint.name + "/")}
+    return names
 
 
 Slice = Union[RandomSlice, ArraySlice]

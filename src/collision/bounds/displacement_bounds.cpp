@@ -89,7 +89,7 @@ std::vector<std::shared_ptr<const JointLevers::Chain>> JointLevers::of(const std
 
 DisplacementBounds::DisplacementBounds(const std::shared_ptr<const RobotModel>& robot, const CollisionProblem& problem,
                                        JointLevers& levers)
-  : joints_(robot->joints().size()), variables_(robot->variables().size()), ranges_(limitRanges(*robot))
+  : joints_(robot->joints().size()), variables_(robot->variables().size()), ranges_(provenRanges(*robot))
 {
   const std::vector<std::shared_ptr<const JointLevers::Chain>> chains = levers.of(robot, problem);
   const auto add = [&](const JointLevers::Chain& chain, const JointLevers::Chain& other)

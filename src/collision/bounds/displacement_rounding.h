@@ -4,7 +4,7 @@ namespace gpu_planning_scene::core
 {
 /// An upper bound on a true displacement, from a computed bound. Both are in metres, at least 0, and may be infinite.
 /// The bound is enlarged by more than the rounding of its sum and of forward kinematics and distances in double. Valid
-/// within a kilometre of the robot's root.
+/// within a kilometre of the origin of the planning frame.
 inline double withRounding(double displacement)
 {
   constexpr double kRelative = 1e-9;

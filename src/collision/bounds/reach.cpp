@@ -5,6 +5,7 @@
 
 #include "collision/geometry/median_split.h"
 #include "collision/geometry/shape_bounds.h"
+#include "model/joint_limits.h"
 #include "model/math_constants.h"
 #include "scene/rigid_pose.h"
 
@@ -192,6 +193,22 @@ std::vector<VariableRange> limitRanges(const RobotModel& robot)
     const Variable& variable = robot.variables()[static_cast<std::size_t>(joint.first_variable)];
     if (variable.bounded)
       ranges.push_back({joint.first_variable, variable.lower - kBeyondLimit, variable.upper + kBeyondLimit});
+  }
+  return ranges;
+}
+
+std::vector<VariableRange> provenRanges(const RobotModel& robot)
+{
+  std::vector<VariableRange> ranges = limitRanges(robot);
+  for (const Joint& joint : robot.joints())
+  {
+    const bool turns = joint.type == JointType::Revolute || joint.type == JointType::Continuous;
+    const int angle = turns ? joint.first_variable : joint.type == JointType::Planar ? joint.first_variable + 2 : -1;
+    if (angle < 0 || joint.multiplier == 0.0)
+      continue;
+    const double a = (-kLargestProvenAngle - joint.offset) / joint.multiplier;
+    const double b = (kLargestProvenAngle - joint.offset) / joint.multiplier;
+    ranges.push_back({angle, std::min(a, b), std::max(a, b)});
   }
   return ranges;
 }

@@ -36,6 +36,10 @@ struct SweptBody
 /// these ranges.
 std::vector<VariableRange> limitRanges(const RobotModel& robot);
 
+/// The ranges of variables within which motions are proven free: limitRanges, and for each variable that turns joints
+/// the values at which none of them is beyond kLargestProvenAngle.
+std::vector<VariableRange> provenRanges(const RobotModel& robot);
+
 /// Upper bounds of the regions that a robot's bodies can reach while the joints stay within their limits. Nothing is
 /// sampled. A region is a set of balls, because a rotated ball is still a ball. A joint sweeps each ball along an arc
 /// or a segment; the swept volume is cut into parts, and each part is covered with a ball again.

@@ -64,7 +64,7 @@ const SceneReport& CpuScene::report(const std::string& name)
   {
     prepare(group);
     std::vector<BodyPair>& pairs = group.report.colliding_in_samples;
-    const std::vector<BodyPair> sampled = collidingInSamples(*scene_->robot, *group.problem, *group.within);
+    const std::vector<BodyPair> sampled = collidingInSamples(*scene_, *group.problem, *group.within);
     pairs.insert(pairs.end(), sampled.begin(), sampled.end());
     std::sort(pairs.begin(), pairs.end());
     group.is_sampled = true;

@@ -5,7 +5,10 @@
 #include <cstdio>
 #include <limits>
 
+#include "collision/filter/proofs/joint_chain.h"
+#include "model/robot_text.h"
 #include "model/text/one_line.h"
+#include "scene/body_link.h"
 
 namespace gpu_planning_scene::core
 {
@@ -35,6 +38,28 @@ std::string pairList(const PlanningScene& scene, const std::vector<BodyPair>& pa
     text += (i == 0 ? "" : ", ") + scene.bodyName(pairs[i][0]) + " - " + scene.bodyName(pairs[i][1]);
   return pairs.size() <= kMaxListedPairs ? text
                                          : text + " and " + std::to_string(pairs.size() - kMaxListedPairs) + " more";
+}
+
+/// Whether no joint moves the two bodies relative to each other, so that they collide in all states or in none.
+bool isRigid(const PlanningScene& scene, const BodyPair& pair)
+{
+  const std::vector<ChainJoint> joints =
+      jointsBetween(*scene.robot, linkOfBody(scene, pair[0]), linkOfBody(scene, pair[1]));
+  return std::all_of(joints.begin(), joints.end(),
+                     [](const ChainJoint& part) { return part.joint->type == JointType::Fixed; });
+}
+
+/// Only a pair that collides in every state may be allowed without the risk that a collision is missed.
+std::string remedyOfRigid(const PlanningScene& scene, const std::vector<BodyPair>& pairs)
+{
+  for (const BodyPair& pair : pairs)
+    if (isRigid(scene, pair))
+    {
+      const std::string names = scene.bodyName(pair[0]) + ", " + scene.bodyName(pair[1]);
+      return ", or, because no joint moves them apart, allow " + names + ": allowed_collisions: [[" + names +
+             "]] in a scene file";
+    }
+  return "";
 }
 
 std::string batchesText(std::size_t cpu_below)
@@ -75,6 +100,8 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
   lines.push_back("device: " + device);
   lines.push_back("robot: " + robot.name() + ", " + counted(robot.links().size(), "link") + ", " +
                   counted(robot.variables().size(), "variable") + ", planning frame " + robot.planningFrame());
+  for (std::string& line : describeLimitSources(robot))
+    lines.push_back(std::move(line));
   lines.push_back("scene: " + counted(scene.objects.size(), "object") +
                   (scene.attached.empty() ? std::string() : ", " + counted(scene.attached.size(), "attached object")));
   lines.push_back("triangles: " + std::to_string(robot.triangleCount()) + " in the robot; " +
@@ -139,13 +166,11 @@ std::vector<std::string> warningsOfScene(const PlanningScene& scene, const Scene
     const bool are_links = std::all_of(other.begin(), other.end(),
                                        [links](const BodyPair& pair) { return pair[0] < links && pair[1] < links; });
     lines.push_back(counted(other.size(), "pair") + found + pairList(scene, other) +
-                    (are_links
-                         ? std::string("; these are links of the robot: generate_acm ") +
-                               (scene.robot->srdfCollisions().has_srdf ? "--srdf OLD " : "") +
-                               "--out NEW makes an SRDF that allows the pairs that always collide, or allow a pair: "
-                         : "; move these bodies apart, or allow a pair that may touch: ") +
-                    "allowed_collisions: [[" + scene.bodyName(other[0][0]) + ", " + scene.bodyName(other[0][1]) +
-                    "]] in a scene file");
+                    (are_links ? std::string("; these are links of the robot: generate_acm ") +
+                                     (scene.robot->srdfCollisions().has_srdf ? "--srdf OLD " : "") +
+                                     "--out NEW makes an SRDF that allows the pairs that always collide"
+                               : std::string("; move these bodies apart")) +
+                    remedyOfRigid(scene, other));
   }
   std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);
   return lines;

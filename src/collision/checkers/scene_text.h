@@ -10,8 +10,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// Describes a scene in lines of text: the device, the robot, the triangles, the checked pairs, and the omitted pairs
-/// with their reasons.
+/// Describes a scene in lines of text: the device, the robot, the sources of its limits, the triangles, the checked
+/// pairs, and the omitted pairs with their reasons.
 std::vector<std::string> describeScene(const PlanningScene& scene, const SceneReport& report,
                                        const std::string& device);
 

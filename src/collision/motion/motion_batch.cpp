@@ -44,7 +44,7 @@ MotionBatch::MotionBatch(StateChecker& checker, const RobotModel& robot, const s
                          const MotionCheckerOptions& options, MotionQuery query, const std::function<bool()>& stop)
   : checker_(checker),
     robot_(robot),
-    limits_(limitRanges(robot)),
+    limits_(provenRanges(robot)),
     group_(group),
     options_(options),
     last_valid_(query == MotionQuery::LastValid),
@@ -65,7 +65,7 @@ void MotionBatch::add(const double* from, const double* to)
     motion.travel = jointTravel(robot_, from, to);
   for (const JointTravel& joint : motion.travel)
     motion.longest_travel = std::max({motion.longest_travel, joint.length, joint.angle});
-  // Outside the joints' limits there are no displacement bounds.
+  // Outside the joints' limits, and at very large angles, there are no displacement bounds.
   if (options_.rule == MotionRule::Bound && !(withinRanges(limits_, from) && withinRanges(limits_, to)))
     motion.reject();
   motions_.push_back(std::move(motion));

@@ -8,6 +8,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/description/collision_shapes.h"
+#include "model/description/position_limits.h"
 #include "model/math_constants.h"
 
 namespace gpu_planning_scene::core
@@ -29,6 +30,7 @@ class TreeBuilder
       addVirtualJoint(*virtual_joint);
     addSubtree(root);
     resolveMimics();
+    applyPositionLimits(options_.position_limits, tree_, warnings_);
     limitVariables(tree_);
     return std::move(tree_);
   }
@@ -108,7 +110,7 @@ class TreeBuilder
     else if (joint.mimic)
       result.mimic = true;
     if (!result.mimic)
-      addVariables(result, joint.limits.get());
+      addVariables(result, &joint);
     tree_.joints.push_back(result);
   }
 
@@ -133,7 +135,8 @@ class TreeBuilder
     }
   }
 
-  void addVariables(Joint& joint, const urdf::JointLimits* limits = nullptr)
+  /// `description`: the joint of the URDF; null for a virtual joint.
+  void addVariables(Joint& joint, const urdf::Joint* description = nullptr)
   {
     const double reach = options_.unbounded_translation;
     const auto add = [&](const std::string& suffix, double range) {
@@ -162,13 +165,7 @@ class TreeBuilder
     }
     else
     {
-      // urdfdom refuses revolute and prismatic joints without limits.
-      if (limits->lower > limits->upper)
-      {
-        throw Error(whereJoint(joint.name) + " has a lower limit above its upper limit (" +
-                    std::to_string(limits->lower) + " > " + std::to_string(limits->upper) + ")");
-      }
-      tree_.variables.push_back({joint.name, true, limits->lower, limits->upper});
+      tree_.variables.push_back(limitedVariable(*description, whereJoint(joint.name), warnings_));
     }
   }
 

@@ -14,4 +14,14 @@ std::string exactText(double value)
   text << std::scientific << value;
   return text.str();
 }
+
+std::string numberText(double value)
+{
+  constexpr int kDigits = 9;
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(kDigits);
+  text << value;
+  return text.str();
+}
 }  // namespace gpu_planning_scene::core

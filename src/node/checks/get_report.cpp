@@ -1,4 +1,5 @@
 #include "collision/checkers/scene_text.h"
+#include "model/full_states.h"
 #include "model/robot_text.h"
 #include "node/checks/check_services.h"
 #include "node/endpoints/respond.h"
@@ -54,6 +55,9 @@ GetReport::Response CheckServices::report(const GetReport::Request& request)
         job.report = true;
         const CheckAnswer answer = answerOf(std::move(job));
         fillReport(answer, response);
+        const Snapshot now = store_.snapshot();
+        if (std::string assumed = assumedPassiveJoints(*now.scene->robot, now.known); !assumed.empty())
+          response.lines.push_back(std::move(assumed));
       });
 }
 }  // namespace gpu_planning_scene::core

@@ -60,7 +60,7 @@ std::string beyondLimits(const RobotModel& robot, const double* states, std::siz
                          const std::function<std::string(std::size_t row)>& name_of)
 {
   const std::size_t width = robot.variables().size();
-  const std::vector<VariableRange> ranges = limitRanges(robot);
+  const std::vector<VariableRange> ranges = provenRanges(robot);
   for (std::size_t row = 0; row < count; ++row)
     if (const ValuesOutsideLimits outside = valuesOutside(ranges, robot, states + row * width); outside.count() != 0)
       return name_of(row) + ": " + outside.text() + "; the motion rule \"bound\" proves no motion there";

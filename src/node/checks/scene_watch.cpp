@@ -6,6 +6,7 @@
 #include <ros/console.h>
 
 #include "collision/checkers/scene_text.h"
+#include "model/full_states.h"
 #include "model/text/one_line.h"
 
 namespace gpu_planning_scene::core
@@ -36,6 +37,7 @@ SceneWatch::SceneWatch(ros::NodeHandle& own, const SceneStore& store, CheckServe
 /// the same errors as their answers.
 void SceneWatch::look()
 {
+  warnOfPassiveJoints();
   try
   {
     if (!answer_.valid() && store_.snapshot().scene->revision != revision_)
@@ -47,6 +49,20 @@ void SceneWatch::look()
   {
     ROS_DEBUG_STREAM("no report of the new scene: " << error.what());
   }
+}
+
+/// Warns once: as soon as requests need not name all joints, because the current state is known but for passive joints.
+void SceneWatch::warnOfPassiveJoints()
+{
+  if (has_warned_of_passive_joints_)
+    return;
+  const Snapshot now = store_.snapshot();
+  const std::vector<bool> known = now.partialState().known;
+  if (std::find(known.begin(), known.end(), false) != known.end())
+    return;
+  has_warned_of_passive_joints_ = true;
+  if (const std::string warning = assumedPassiveJoints(*now.scene->robot, now.known); !warning.empty())
+    ROS_WARN_STREAM(shortLine(warning));
 }
 
 void SceneWatch::take(const CheckAnswer& answer)

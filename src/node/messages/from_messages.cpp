@@ -218,7 +218,8 @@ SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& ro
           "allowed_collision_matrix: ignored: a difference with only default entries changes nothing "
           "(as in MoveIt); give entry_names and entry_values too");
   }
-  else if (!matrix.entry_names.empty() || !matrix.entry_values.empty() || !matrix.default_entry_names.empty())
+  else if (!matrix.entry_names.empty() || !matrix.entry_values.empty() || !matrix.default_entry_names.empty() ||
+           !matrix.default_entry_values.empty())
     change.matrix = matrixFrom(matrix, limits);
   for (const LinkPadding& padding : message.link_padding)
     insertOnce(change.link_padding, padding.link_name, padding.padding, "the padding");

@@ -21,8 +21,8 @@ struct RequestedEnds
 
 /// Reads the starts and ends, which can be states that the SRDF names. A variable that only the end sets starts at its
 /// value in `current`. A variable that only the start sets keeps its value. `require_count` throws Error for too many
-/// motions. Throws Error for values that requestedColumns refuses, different numbers of starts and ends, an unknown
-/// name, a name together with values, and a value that `current` does not know.
+/// motions. Throws Error for names and values that requestedColumns refuses, different numbers of starts and ends, an
+/// unknown name, a name together with values, and a value that `current` does not know.
 RequestedEnds requestedEnds(const RobotModel& robot, const CheckMotions::Request& request, const PartialState& current,
                             const std::function<void(std::size_t)>& require_count);
 }  // namespace gpu_planning_scene::core

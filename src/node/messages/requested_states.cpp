@@ -5,6 +5,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
+#include "model/text/name_list.h"
 
 namespace gpu_planning_scene::core
 {
@@ -17,6 +18,10 @@ std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<st
   std::vector<int> columns = variableIndices(robot, names.values);
   const std::size_t width = columns.size();
   const std::vector<double>& values = rows.values;
+  if (values.empty())
+    throw Error(std::string(rows.name) + " is empty, but " + names.name + " names " + nameList(names.values) +
+                "; give rows of " + std::to_string(width) + (width == 1 ? " value" : " values, one per name") +
+                (std::string(rows.name) == "positions" ? ", or leave out both for the current state" : ""));
   if (values.size() % width != 0)
     throw Error(std::to_string(values.size()) + " " + rows.name + " are not rows of " + std::to_string(width) +
                 " values, one per name of " + names.name);

@@ -17,8 +17,8 @@ struct RequestField
 };
 
 /// The variable indices of the columns of `rows`. Checks all values of the rows. `require_count` throws Error for too
-/// many rows. Throws Error if there is no name or an unknown name, if the values do not make whole rows, or if a value
-/// is not finite.
+/// many rows. Throws Error if there is no name, an unknown name or no value, if the values do not make whole rows, or
+/// if a value is not finite.
 std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<std::vector<std::string>>& names,
                                   const RequestField<std::vector<double>>& rows,
                                   const std::function<void(std::size_t)>& require_count);

@@ -5,6 +5,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "node/parameters/collision_operations.h"
+#include "node/parameters/joint_limits_parameter.h"
 #include "node/parameters/padding_parameters.h"
 #include "node/parameters/parameter_values.h"
 
@@ -93,6 +94,19 @@ std::map<std::string, std::string> packageFolders(const XmlRpcValue& value)
 
 namespace
 {
+/// The parameters with the joint limits: those of the move_group that the node follows (~monitor). MoveIt searches
+/// robot_description from the name of the move_group upwards. If it finds none, or without a move_group, they are those
+/// of the node's own robot description.
+std::string limitsFolder(const ros::NodeHandle& node, const ros::NodeHandle& own, const std::string& urdf_parameter)
+{
+  const std::string monitor = textParameter(own, "monitor", "");
+  const ros::NodeHandle move_group(node, monitor);
+  std::string found;
+  if (monitor.empty() || !move_group.searchParam("robot_description", found))
+    found = urdf_parameter;
+  return found + "_planning";
+}
+
 /// The name of a robot description in messages: the file or command that the launch file names, or the parameter.
 std::string sourceOf(const ros::NodeHandle& own, const std::string& source_parameter, const std::string& parameter)
 {
@@ -122,6 +136,7 @@ PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHa
   if (urdf.empty())
     throw Error("parameter " + urdf_parameter +
                 " is not set; load the robot's URDF there, or give urdf:=FILE to the launch file");
+  options.position_limits = positionLimitsFromParameters(node, limitsFolder(node, own, urdf_parameter), warnings);
   const auto robot = RobotModel::fromXml(urdf, textParameter(node, srdf_parameter, ""), options, warnings);
   defaults = defaultsFromParameters(node, urdf_parameter, *robot, warnings);
 

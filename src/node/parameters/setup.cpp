@@ -40,6 +40,11 @@ std::uint64_t setupFromParameters(const ros::NodeHandle& node, const ros::NodeHa
         hash.add((*mesh)->vertices.data(), (*mesh)->vertices.size() * sizeof(Eigen::Vector3d));
         hash.add((*mesh)->triangles.data(), (*mesh)->triangles.size() * sizeof((*mesh)->triangles[0]));
       }
+  for (const Variable& variable : robot.variables())
+  {
+    hash.add(variable.lower);
+    hash.add(variable.upper);
+  }
   hash.add(defaults.object_padding);
   hash.add(defaults.attached_padding);
   hash.add(lengthParameter(own, "tolerance", 0.0));

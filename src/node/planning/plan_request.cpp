@@ -47,6 +47,23 @@ NamedRow namedGoal(const PlanMotion::Request& request, const GroupStateSpace& sp
   return goal;
 }
 
+/// The workspace of the request; no value if it has none.
+std::optional<Eigen::AlignedBox3d> workspaceOf(const WorkspaceParameters& parameters, const std::string& planning_frame)
+{
+  const auto& min = parameters.min_corner;
+  const auto& max = parameters.max_corner;
+  const Eigen::AlignedBox3d box(Eigen::Vector3d(min.x, min.y, min.z), Eigen::Vector3d(max.x, max.y, max.z));
+  if (box.min().isZero(0.0) && box.max().isZero(0.0))
+    return std::nullopt;
+  if (!box.min().allFinite() || !box.max().allFinite() || box.isEmpty())
+    throw Error("workspace_parameters: the corners must be finite, and min_corner must not be above max_corner");
+  const std::string& frame = parameters.header.frame_id;
+  if (!frame.empty() && frame != planning_frame && frame != "/" + planning_frame)
+    throw Error("workspace_parameters are in the frame '" + frame + "'; give them in the planning frame '" +
+                planning_frame + "'");
+  return box;
+}
+
 /// Refuses parameters that keep a planner busy for hours between two checks of the time, because planners accept any
 /// number. Examples are a count of many millions, and a `range` that is a billionth of the extent of the space.
 void refuseCostly(const std::map<std::string, std::string>& parameters, double extent, std::size_t limit)
@@ -134,7 +151,8 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
       throw Error(std::to_string(count) + " goals are more than " + std::to_string(options.max_goals) +
                   " (limits/goals)");
   };
-  const GroupStateSpace space(now.scene->robot, request.group);
+  query.workspace = workspaceOf(request.workspace_parameters, robot.planningFrame());
+  const GroupStateSpace space(now.scene->robot, request.group, query.workspace);
   NamedRow goal_rows{request.goal_names, request.goals};
   if (!request.named_goal.empty())
     goal_rows = namedGoal(request, space);

@@ -96,7 +96,7 @@ int readLink(const YamlValue& value, const SceneReader& reader)
 }
 
 /// The pose in the link's frame of the frame that `header` names. Without a header or a name: the link's own frame.
-Eigen::Isometry3d readFrameInLink(const YamlValue* header, int link, const SceneReader& reader)
+Eigen::Isometry3d readFrameInLink(const YamlValue* header, int link, SceneReader& reader)
 {
   const YamlValue* frame = header ? header->find("frame_id") : nullptr;
   const std::string& link_name = reader.robot.links()[link].name;
@@ -106,6 +106,7 @@ Eigen::Isometry3d readFrameInLink(const YamlValue* header, int link, const Scene
   if (reader.state.empty())
     frame->fail("frame '" + frame->text() + "' is not the frame of link '" + link_name +
                 "'; give the robot_state in which the object is attached");
+  reader.has_link_frames = true;
   std::vector<Eigen::Isometry3d> poses(reader.robot.links().size());
   reader.robot.linkPoses(reader.state.data(), poses.data());
   return poses[link].inverse() * frame_pose;

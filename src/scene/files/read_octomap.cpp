@@ -41,7 +41,7 @@ SerializedOctree readOctree(const YamlValue& value, const SceneReader& reader)
 
 /// Adds the octomap to the scene if it has occupied leaves. `where`: the place of its data in the file.
 void addOctomap(const SerializedOctree& octree, const Eigen::Isometry3d& pose, const YamlValue& where,
-                const SceneReader& reader, PlanningScene& result)
+                SceneReader& reader, PlanningScene& result)
 {
   WorldObject object;
   object.id = kOctomapId;
@@ -74,7 +74,7 @@ SerializedOctree readOctreeFile(const YamlValue& resource, const SceneReader& re
 }
 }  // namespace
 
-void readOctomap(const YamlValue& scene, const SceneReader& reader, PlanningScene& result)
+void readOctomap(const YamlValue& scene, SceneReader& reader, PlanningScene& result)
 {
   const YamlValue* const file = scene.find("octomap");
   if (file != nullptr)

@@ -79,7 +79,7 @@ void readFixedFrame(const YamlValue& value, SceneReader& reader)
     child.fail("fixed frame '" + *name + "' is given twice");
 }
 
-Eigen::Isometry3d readFrame(const YamlValue* header, const SceneReader& reader)
+Eigen::Isometry3d readFrame(const YamlValue* header, SceneReader& reader)
 {
   const YamlValue* value = header ? header->find("frame_id") : nullptr;
   if (!value || value->text().empty())
@@ -98,6 +98,7 @@ Eigen::Isometry3d readFrame(const YamlValue* header, const SceneReader& reader)
       continue;
     if (reader.state.empty())
       value->fail("frame '" + frame + "' is a link; the file must give the robot_state that places this link");
+    reader.has_link_frames = true;
     std::vector<Eigen::Isometry3d> poses(reader.robot.links().size());
     reader.robot.linkPoses(reader.state.data(), poses.data());
     return poses[link];

@@ -151,7 +151,7 @@ void readNamedStates(const YamlValue& value, const SceneReader& reader, GivenSta
 }
 }  // namespace
 
-std::vector<double> readRobotState(const YamlValue& value, const SceneReader& reader)
+std::vector<double> readRobotState(const YamlValue& value, SceneReader& reader)
 {
   value.warnOfUnknownKeys(
       {"joint_state", "multi_dof_joint_state", "named_state", "attached_collision_objects", "is_diff"},
@@ -176,11 +176,14 @@ std::vector<double> readRobotState(const YamlValue& value, const SceneReader& re
 
   if (std::find(state.given.begin(), state.given.end(), true) == state.given.end())
     return {};
-  // The virtual joint is not in the URDF. Scene files often leave it out, and then mean its default.
+  // The virtual joint is not in the URDF. Scene files often leave it out, and then mean its default, or that of tf.
   std::vector<std::string> missing;
   std::vector<int> columns;
   std::vector<double> values;
   const std::vector<int> of_virtual_joint = virtualVariables(reader.robot);
+  reader.leaves_out_base =
+      !of_virtual_joint.empty() && std::none_of(of_virtual_joint.begin(), of_virtual_joint.end(),
+                                                [&state](int variable) { return state.given[variable]; });
   for (std::size_t i = 0; i < state.given.size(); ++i)
     if (state.given[i])
     {

@@ -71,6 +71,11 @@ PlanningScene sceneFromYaml(const YamlValue& file, const std::string& folder, st
   if (const YamlValue* allowed = file.find("allowed_collisions"))
     addAllowedCollisions(*allowed, reader, scene);
   scene.current_state = reader.state;
+  scene.base_is_default = reader.leaves_out_base && !reader.has_link_frames;
+  if (reader.leaves_out_base && reader.has_link_frames)
+    reader.warn(file.where() + ": the robot is taken to stand at the origin of frame '" + robot->planningFrame() +
+                "', because the file places objects relative to links; set the virtual joint in robot_state if it "
+                "stands elsewhere");
   return scene;
 }
 

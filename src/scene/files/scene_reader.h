@@ -23,7 +23,9 @@ struct SceneReader
   std::string folder;                  ///< start of relative mesh paths
   std::vector<std::string>* warnings;  ///< may be null
   const SceneDefaults& defaults;
-  std::vector<double> state = {};                              ///< the file's robot state; empty if it has none
+  std::vector<double> state = {};  ///< the file's robot state; empty if it has none
+  bool leaves_out_base = false;    ///< the state has no value of the virtual joint
+  bool has_link_frames = false;    ///< an object is placed relative to a link and the planning frame
   std::map<std::string, Eigen::Isometry3d> fixed_frames = {};  ///< poses in the planning frame
   MeshAccess meshes = {};
   MeshCache mesh_files = MeshCache();
@@ -45,11 +47,11 @@ bool isUnsetPose(const YamlValue& value);
 /// Reads an entry of the scene's `fixed_frame_transforms` and adds it to `reader.fixed_frames`.
 void readFixedFrame(const YamlValue& value, SceneReader& reader);
 /// The pose in the planning frame of the frame that `header` names. Without a header or a name: the planning frame.
-Eigen::Isometry3d readFrame(const YamlValue* header, const SceneReader& reader);
+Eigen::Isometry3d readFrame(const YamlValue* header, SceneReader& reader);
 
 /// Reads `robot_state`. Values that the file does not give have their defaults. Empty if the file gives no value at
 /// all.
-std::vector<double> readRobotState(const YamlValue& value, const SceneReader& reader);
+std::vector<double> readRobotState(const YamlValue& value, SceneReader& reader);
 
 /// Returns false and leaves `matrix` unchanged if the value holds no entries.
 bool readMatrix(const YamlValue& value, const SceneReader& reader, AllowedCollisionMatrix& matrix);
@@ -66,7 +68,7 @@ std::vector<PlacedShape> readShapes(const YamlValue& object, SceneReader& reader
 void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& result);
 
 /// Reads `world.octomap`, and the scene's `octomap`, and adds the octomap to the world of `result`.
-void readOctomap(const YamlValue& scene, const SceneReader& reader, PlanningScene& result);
+void readOctomap(const YamlValue& scene, SceneReader& reader, PlanningScene& result);
 
 /// A joint trajectory in the layout of trajectory_msgs/JointTrajectory. Times can also be numbers of seconds.
 JointTrajectory readTrajectory(const YamlValue& value, const SceneReader& reader);

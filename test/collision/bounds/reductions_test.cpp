@@ -318,15 +318,48 @@ TEST_F(SmallScene, CollidesInEveryStateWhereAFixedPairDoes)
   EXPECT_EQ(on_gpu.check(states.data(), 2).valid, std::vector<std::uint8_t>(2, 1));
 }
 
-/// A floating virtual joint does not hide that the base stands on the floor: requests leave the base where it is.
-TEST(ReportOfSamples, LeavesAFloatingBaseWhereItIs)
+/// The names of the pairs that collided in all samples.
+std::vector<std::string> sampledPairs(const std::shared_ptr<const PlanningScene>& scene)
 {
-  const auto scene = std::make_shared<PlanningScene>(sliderRobotOnFloor("floating"));
-  scene->objects.push_back(
-      {"ground", Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, -0.15)), {{Box{{10.0, 10.0, 0.2}}}}});
-  const auto pairs = CpuChecker(scene).report().colliding_in_samples;
-  ASSERT_EQ(pairs.size(), 1u);
-  EXPECT_EQ(scene->bodyName(pairs[0][0]) + " - " + scene->bodyName(pairs[0][1]), "cart - ground");
+  std::vector<std::string> names;
+  for (const BodyPair& pair : CpuChecker(scene).report().colliding_in_samples)
+    names.push_back(scene->bodyName(pair[0]) + " - " + scene->bodyName(pair[1]));
+  return names;
+}
+
+/// The pose of the base comes from tf or from a state, so a crate at the origin need not touch the robot.
+TEST(ReportOfSamples, SaysNothingOfObjectsAroundABaseThatMoves)
+{
+  const WorldObject crate{"crate", Eigen::Isometry3d::Identity(), {{Box{{10.0, 10.0, 0.2}}}}};
+  for (const std::string type : {"floating", "planar"})
+  {
+    const auto scene = std::make_shared<PlanningScene>(sliderRobotOnFloor(type));
+    scene->objects.push_back(crate);
+    EXPECT_TRUE(sampledPairs(scene).empty()) << type;
+    EXPECT_TRUE(warningsOfScene(*scene, CpuChecker(scene).report()).empty()) << type;
+  }
+  const auto fixed = std::make_shared<PlanningScene>(sliderRobotOnFloor("fixed"));
+  fixed->objects.push_back(crate);
+  EXPECT_EQ(std::vector<std::string>{"cart - crate"}, sampledPairs(fixed));
+}
+
+/// A tray on a caster that nobody measures, and an arm on the tray. Both are large, and overlap.
+TEST(ReportOfSamples, SaysNothingOfPairsBetweenWhichAPassiveJointLies)
+{
+  const auto scene_with = [](const std::string& srdf)
+  {
+    return std::make_shared<PlanningScene>(
+        robotOf("<link name='base'/>" + boxLink("tray") + boxLink("arm") +
+                    jointXml("caster", "continuous", "base", "tray", "<axis xyz='0 0 1'/>") +
+                    jointXml("joint", "revolute", "tray", "arm", "<axis xyz='0 0 1'/>" + std::string(kLimits)),
+                "<group name='g'><joint name='joint'/></group>" + srdf));
+  };
+  const auto measured = scene_with("");
+  const auto passive = scene_with("<passive_joint name='caster'/>");
+  for (const auto& scene : {measured, passive})
+    scene->objects.push_back({"crate", Eigen::Isometry3d::Identity(), {{Box{{0.5, 0.5, 0.5}}}}});
+  EXPECT_EQ((std::vector<std::string>{"tray - arm", "tray - crate", "arm - crate"}), sampledPairs(measured));
+  EXPECT_EQ(std::vector<std::string>{"tray - arm"}, sampledPairs(passive)) << "both links are above the caster";
 }
 
 TEST_F(SmallScene, ReportsThePairsThatCollideInEverySample)
@@ -362,6 +395,7 @@ TEST_F(SmallScene, ReportsThePairsThatCollideInEverySample)
   EXPECT_NE(std::string::npos, warnings[0].find("arm - plate")) << warnings[0];
   EXPECT_NE(std::string::npos, warnings[0].find("move these bodies apart")) << warnings[0];
   EXPECT_NE(std::string::npos, warnings[0].find("allowed_collisions: [[base, plate]]")) << warnings[0];
+  EXPECT_EQ(std::string::npos, warnings[0].find("[[arm")) << "the arm need not touch the plate";
 }
 
 TEST_F(SmallScene, WarnsOfLinksThatAlwaysCollideWithTheToolThatAllowsThem)

@@ -354,5 +354,78 @@ TEST_P(RealMotions, ProvenPartsAreFreeAtTenTimesTheResolution)
             << " states checked again" << std::endl;
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, RealMotions, testing::Values("kr5", "wam", "ur5_cage", "ur5_bookshelf_thin"));
+
+/// A rod of 1 m that turns, and a rod on it that turns 1000 times as fast.
+class TurningRod : public testing::Test
+{
+ public:
+  bool isFree(MotionRule rule, double from, double to) const
+  {
+    MotionCheckerOptions options;
+    options.rule = rule;
+    options.steps = {0.02, 0.02};
+    const MotionChecker checker(std::make_shared<CpuChecker>(scene_), scene_->robot, "", options);
+    return checker.check(&from, &to, 1).front().valid;
+  }
+
+  static std::string rod(const std::string& name)
+  {
+    return "<link name='" + name +
+           "'><collision><origin xyz='0.5 0 0'/><geometry><box size='1 0.02 0.02'/></geometry>" + "</collision></link>";
+  }
+
+  static std::shared_ptr<const RobotModel> robotWith(const std::string& type, const std::string& follower)
+  {
+    return robotOf(
+        "<link name='base'/>" + rod("rod") + rod("fast") +
+            jointXml("turn", type, "base", "rod", "<axis xyz='0 0 1'/>" + std::string(type[0] == 'r' ? kWide : "")) +
+            jointXml("follow", "continuous", "rod", "fast", "<origin xyz='1 0 1'/><axis xyz='0 0 1'/>" + follower),
+        "<disable_collisions link1='rod' link2='fast' reason='User'/>");
+  }
+
+  static constexpr char kWide[] = "<limit lower='-1e10' upper='1e10' effort='1' velocity='1'/>";
+  std::shared_ptr<PlanningScene> scene_;
+};
+
+TEST_F(TurningRod, IsNotProvenFreeAtAnglesThatDoublesDoNotResolve)
+{
+  for (const std::string type : {"continuous", "revolute"})
+  {
+    const auto robot = robotWith(type, "<mimic joint='turn'/>");
+    scene_ = std::make_shared<PlanningScene>(robot);
+    for (const double angle : {2e9, -2e9, 1.1e6})
+    {
+      EXPECT_FALSE(isFree(MotionRule::Bound, angle, angle + 0.1)) << type << " " << angle;
+      EXPECT_FALSE(isFree(MotionRule::Bound, angle - 0.1, angle)) << type << " " << angle;
+      EXPECT_TRUE(isFree(MotionRule::Samples, angle, angle + 0.1)) << type << " " << angle;
+    }
+    for (const double angle : {0.0, 9.9e5, -9.9e5})
+      EXPECT_TRUE(isFree(MotionRule::Bound, angle, angle + 0.1)) << type << " " << angle;
+  }
+}
+
+TEST_F(TurningRod, IsNotProvenFreeIfAJointThatFollowsItTurnsTooFar)
+{
+  scene_ = std::make_shared<PlanningScene>(robotWith("continuous", "<mimic joint='turn' multiplier='-1000'/>"));
+  EXPECT_FALSE(isFree(MotionRule::Bound, 1100.0, 1100.001));
+  EXPECT_TRUE(isFree(MotionRule::Bound, 900.0, 900.001));
+  scene_ = std::make_shared<PlanningScene>(robotWith("continuous", "<mimic joint='turn' offset='-2e6'/>"));
+  EXPECT_FALSE(isFree(MotionRule::Bound, 0.0, 0.001));
+}
+
+TEST_F(TurningRod, TurnsAlsoAsPartOfAPlanarJoint)
+{
+  scene_ = std::make_shared<PlanningScene>(
+      robotOf(rod("rod"), "<virtual_joint name='drive' type='planar' parent_frame='world' child_link='rod'/>"));
+  MotionCheckerOptions options;
+  options.steps = {0.02, 0.02};
+  const MotionChecker checker(std::make_shared<CpuChecker>(scene_), scene_->robot, "", options);
+  for (const auto& [angle, free] : std::vector<std::pair<double, bool>>{{2e9, false}, {9.9e5, true}})
+  {
+    const std::vector<double> from = {0.0, 0.0, angle};
+    const std::vector<double> to = {0.1, 0.0, angle + 0.1};
+    EXPECT_EQ(free, checker.check(from.data(), to.data(), 1).front().valid) << angle;
+  }
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -89,11 +89,12 @@ TEST_F(Service, ARequestCanNameARevision)
 
 TEST_F(Service, OtherVariablesTakeTheCurrentState)
 {
-  expectRefusal(request({"turn"}, {0.0}),
-                "no value for slide; give values for all joints (a named state takes no further values), or set the "
-                "current state: "
-                "with the topic joint_states, with robot_state.joint_state in the scene file, or with "
-                "~apply_planning_scene");
+  expectRefusal(
+      request({"turn"}, {0.0}),
+      "no value for slide; give values for all joints (a named state takes no further values), or set the "
+      "current state: "
+      "with the topic joint_states, with robot_state.joint_state in the scene file, or with "
+      "~apply_planning_scene; list joints that nobody measures, such as casters, as <passive_joint> in the SRDF");
   store.updateState({{"slide", 1.0}});
   EXPECT_EQ((std::vector<std::uint8_t>{0}), answer(request({"turn"}, {0.5})).valid);
 }
@@ -237,11 +238,29 @@ TEST(RequestedStates, AMotionNeedsAllOfARotationOrNothing)
   EXPECT_NE(std::string::npos, errorOf([&] { requireWholeRotations(*robot, {turn, first + 4}); }).find("'swim'"));
 }
 
-TEST_F(Service, NoStatesGetNoAnswers)
+TEST_F(Service, NamesWithoutValuesAreRefused)
 {
-  const CheckStates::Response response = answer(request({"turn", "slide"}, {}));
-  EXPECT_TRUE(response.success) << response.message;
-  EXPECT_TRUE(response.valid.empty());
+  store.updateState({{"slide", 0.0}, {"turn", 0.5}});
+  expectRefusal(request({"turn", "slide"}, {}),
+                "positions is empty, but joint_names names turn, slide; give rows of 2 values, one per name, or leave "
+                "out both for the current state");
+  CheckMotions::Request motions;
+  motions.joint_names = {"turn"};
+  motions.resolution = motions.translation_resolution = 0.1;
+  const auto refusal = [&]
+  {
+    const CheckMotions::Response response = services.checkMotions(motions);
+    EXPECT_FALSE(response.success);
+    return response.message;
+  };
+  EXPECT_EQ("starts is empty, but joint_names names turn; give rows of 1 value", refusal());
+  motions.named_start = "left";
+  EXPECT_EQ("ends is empty, but joint_names names turn; give rows of 1 value", refusal());
+  std::swap(motions.named_start, motions.named_end);
+  EXPECT_EQ("starts is empty, but joint_names names turn; give rows of 1 value", refusal());
+  motions.named_end.clear();
+  motions.starts = {0.0};
+  EXPECT_EQ("1 values in starts and 0 in ends; give one row of each per motion", refusal());
 }
 
 TEST_F(Service, ARequestWithoutStatesChecksTheCurrentState)
@@ -680,5 +699,58 @@ TEST_F(UnknownBase, IsAssumedAtTheOriginAndEachAnswerSaysSo)
   EXPECT_EQ("", messageOf(joints));
 }
 
+TEST_F(UnknownBase, IsThatOfTfWhereARequestGivesOnlyTheOtherJoints)
+{
+  const auto source = [](std::int64_t) { return AssumedBase{{1.0, 0.0, 0.0}, ""}; };
+  PlanningScene scene(sliderRobotOnFloor("planar"));
+  scene.objects = sliderAndWall().objects;  // a wall from x = 0.9 to 1.1 m
+  SceneStore on_tf(scene, {}, {}, source);
+  CheckServer on_tf_server(on_tf,
+                           [](std::shared_ptr<const PlanningScene> checked)
+                           { return std::make_shared<CpuChecker>(std::move(checked)); },
+                           {});
+  CheckServices checks(on_tf, on_tf_server, memory, {1000, 1000000, 10}, nullptr);
+  const CheckStates::Response states = checks.checkStates(request({"slide", "turn"}, {0.0, 0.0, -1.0, 0.0}));
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 1}), states.valid) << states.message;
+
+  CheckTrajectory::Request path;
+  path.start_state.joint_state.name = {"slide", "turn"};
+  path.start_state.joint_state.position = {-1.0, 0.0};
+  path.joint_trajectory.joint_names = {"slide"};
+  path.joint_trajectory.points.resize(1);
+  path.joint_trajectory.points[0].positions = {0.0};
+  path.resolution = path.translation_resolution = 0.1;
+  const CheckTrajectory::Response trajectory = checks.checkTrajectory(path);
+  EXPECT_TRUE(trajectory.success) << trajectory.message;
+  EXPECT_TRUE(trajectory.start_valid);
+  EXPECT_EQ(std::vector<std::uint8_t>{0}, trajectory.waypoint_valid);
+
+  CheckStates::Request changed = request({"slide", "turn"}, {-1.0, 0.0});
+  changed.scene_diff.is_diff = 1;
+  changed.scene_diff.robot_state.is_diff = 1;
+  changed.scene_diff.robot_state.joint_state = path.start_state.joint_state;
+  EXPECT_EQ(std::vector<std::uint8_t>{1}, checks.checkStates(changed).valid);
+}
+
+TEST_F(UnknownBase, AndPassiveJointsNeedNoValue)
+{
+  std::string srdf = sliderSrdf();
+  srdf.insert(srdf.find("</robot>"), "<passive_joint name=\"turn\"/>");
+  SceneStore casters(PlanningScene(RobotModel::fromXml(sliderUrdf(), srdf, {})), {}, {});
+  CheckServer casters_server(casters,
+                             [](std::shared_ptr<const PlanningScene> checked)
+                             { return std::make_shared<CpuChecker>(std::move(checked)); },
+                             {});
+  CheckServices checks(casters, casters_server, memory, {1000, 1000000, 10}, nullptr);
+  const CheckStates::Response states = checks.checkStates(request({"slide"}, {0.0}));
+  EXPECT_TRUE(states.success) << states.message;
+  EXPECT_EQ(std::vector<std::uint8_t>{1}, states.valid);
+  const GetReport::Response report = checks.report(GetReport::Request());
+  EXPECT_EQ(1, std::count(report.lines.begin(), report.lines.end(),
+                          "no state has set passive joints of the SRDF; they have their default values: turn = 0"));
+  casters.updateState({{"turn", 0.5}});
+  const GetReport::Response measured = checks.report(GetReport::Request());
+  EXPECT_EQ(report.lines.size() - 1, measured.lines.size());
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core

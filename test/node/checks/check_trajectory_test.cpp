@@ -148,11 +148,12 @@ TEST_F(SliderTrajectory, AnObstacleBetweenTwoFreeWaypointsIsFound)
 TEST_F(SliderTrajectory, JointsThatItDoesNotNameKeepTheStartsValues)
 {
   CheckTrajectory::Request request = trajectoryOf({"turn"}, {{0.5}, {0.0}});
-  expectRefusal(request,
-                "no value for slide, turn; give values for all joints (a named state takes no further values), or set "
-                "the current state: "
-                "with the topic joint_states, with robot_state.joint_state in the scene file, or with "
-                "~apply_planning_scene");
+  expectRefusal(
+      request,
+      "no value for slide, turn; give values for all joints (a named state takes no further values), or set "
+      "the current state: "
+      "with the topic joint_states, with robot_state.joint_state in the scene file, or with "
+      "~apply_planning_scene; list joints that nobody measures, such as casters, as <passive_joint> in the SRDF");
   slider.store.updateState({{"slide", 1.0}, {"turn", 0.0}});
   EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), answer(request).waypoint_valid);
   request.start_state.joint_state.name = {"slide"};

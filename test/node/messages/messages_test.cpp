@@ -351,6 +351,9 @@ TEST_F(Messages, AMatrixIsTakenAsItIsWrittenAndAnEmptyOneIsNone)
   matrix.entry_names = {"cart", "cart"};
   matrix.entry_values.assign(2, matrix.entry_values[0]);
   refusedMessage("twice", message);
+  matrix = AllowedCollisionMatrixMessage();
+  matrix.default_entry_values = {1};
+  refusedMessage("1 values for 0 names", message);
 }
 
 TEST_F(Messages, AMatrixOfDefaultsAloneChangesNothingInADifference)

@@ -326,7 +326,7 @@ TEST_F(Planning, RefusesInvalidRequests)
   wanted.goals = {1.0, NAN};
   expectStatus(wanted, Response::BAD_REQUEST, "turn");
   wanted.goals.clear();
-  expectStatus(wanted, Response::BAD_REQUEST, "goal");
+  expectStatus(wanted, Response::BAD_REQUEST, "goals is empty, but goal_names names slide, turn");
   wanted.goal_names.clear();
   expectStatus(wanted, Response::BAD_REQUEST, "goal_names is empty");
   wanted.goal_names = request().goal_names;
@@ -336,7 +336,17 @@ TEST_F(Planning, RefusesInvalidRequests)
   wanted.start = {-1, 0, -1, 0};
   expectStatus(wanted, Response::BAD_REQUEST, "start has 2 rows");
   wanted.start.clear();
-  expectStatus(wanted, Response::BAD_REQUEST, "start has 0 rows");
+  expectStatus(wanted, Response::BAD_REQUEST, "start is empty, but start_names names slide, turn");
+  wanted = request();
+  wanted.start_names.clear();
+  expectStatus(wanted, Response::BAD_REQUEST, "start_names is empty");
+  wanted = request();
+  wanted.workspace_parameters.min_corner.x = 1.0;
+  expectStatus(wanted, Response::BAD_REQUEST, "workspace_parameters: the corners must be finite, and min_corner must");
+  wanted.workspace_parameters.max_corner.x = 2.0;
+  wanted.workspace_parameters.header.frame_id = "cart";
+  expectStatus(wanted, Response::BAD_REQUEST,
+               "workspace_parameters are in the frame 'cart'; give them in the planning");
   wanted = request();
   wanted.allowed_planning_time = 9.0;
   expectStatus(wanted, Response::BAD_REQUEST, "the limit is 8.0");

@@ -1,0 +1,141 @@
+#include "model/description/position_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <urdf_model/model.h>
+
+#include "gpu_planning_scene/error.h"
+#include "model/text/name_list.h"
+#include "model/text/number_text.h"
+
+// The limits of a joint are those that MoveIt's RobotModel and RobotModelLoader give it: the intersection of <limit>
+// and <safety_controller>, and instead of each of these two numbers the number of joint_limits, if there is one.
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr char kSafetyController[] = "the URDF's <safety_controller>";
+
+std::string rangeText(double lower, double upper)
+{
+  return numberText(lower) + " to " + numberText(upper);
+}
+
+/// The joint and the number of the variable within it.
+struct Owner
+{
+  const Joint* joint = nullptr;
+  int part = 0;
+};
+
+/// The joint with this variable, or the joint of this name without a variable of its own.
+Owner ownerOf(const RobotTree& tree, const std::string& name)
+{
+  for (const Joint& joint : tree.joints)
+  {
+    if (joint.name == name)
+      return {&joint, 0};
+    for (int i = 0; !joint.mimic && joint.type != JointType::Fixed && i < variableCount(joint.type); ++i)
+      if (tree.variables[static_cast<std::size_t>(joint.first_variable + i)].name == name)
+        return {&joint, i};
+  }
+  return {};
+}
+
+/// Why limits of this variable have no effect, as in MoveIt; empty if they have an effect.
+std::string whyWithoutLimits(const Owner& owner)
+{
+  const Joint& joint = *owner.joint;
+  if (joint.type == JointType::Fixed)
+    return "is fixed";
+  if (joint.mimic)
+    return "follows another joint, whose limits count";
+  if (joint.type == JointType::Continuous)
+    return "is continuous; make it revolute in the URDF to limit it";
+  if ((joint.type == JointType::Planar && owner.part == 2) || (joint.type == JointType::Floating && owner.part > 2))
+    return "is a rotation of a planar or floating joint";
+  return "";
+}
+
+void setLimits(const PositionLimits& limits, Variable& variable)
+{
+  const std::string where = limits.source + ": '" + variable.name + "'";
+  for (const std::optional<double>& limit : {limits.min_position, limits.max_position})
+    if (limit && !std::isfinite(*limit))
+      throw Error(where + " has a position limit that is not a finite number");
+  if (!variable.bounded && !(limits.min_position && limits.max_position))
+    throw Error(where + " has only one position limit, and the URDF has none; give min_position and max_position");
+  const bool replaces_both = limits.min_position && limits.max_position;
+  const double lower = limits.min_position.value_or(variable.lower);
+  const double upper = limits.max_position.value_or(variable.upper);
+  if (!(lower <= upper))
+    throw Error(where + " has the position limits " + rangeText(lower, upper) + "; the first must not be above the " +
+                "second" +
+                (replaces_both
+                     ? ""
+                     : " (one of them is that of " +
+                           (variable.limits_source.empty() ? "the URDF's <limit>" : variable.limits_source) + ")"));
+  variable.bounded = true;
+  variable.lower = lower;
+  variable.upper = upper;
+  variable.limits_source =
+      (replaces_both || variable.limits_source.empty() ? "" : variable.limits_source + " and ") + limits.source;
+}
+}  // namespace
+
+Variable limitedVariable(const urdf::Joint& joint, const std::string& where, std::vector<std::string>& warnings)
+{
+  // urdfdom refuses revolute and prismatic joints without limits.
+  Variable variable;
+  variable.name = joint.name;
+  variable.bounded = true;
+  variable.lower = joint.limits->lower;
+  variable.upper = joint.limits->upper;
+  if (variable.lower > variable.upper)
+    throw Error(where + " has a lower limit above its upper limit (" + std::to_string(variable.lower) + " > " +
+                std::to_string(variable.upper) + ")");
+  if (!joint.safety)
+    return variable;
+  const double lower = std::max(variable.lower, joint.safety->soft_lower_limit);
+  const double upper = std::min(variable.upper, joint.safety->soft_upper_limit);
+  if (!(lower <= upper))
+    throw Error(where + ": no position is within its <limit>, " + rangeText(variable.lower, variable.upper) +
+                ", and its <safety_controller>, " +
+                rangeText(joint.safety->soft_lower_limit, joint.safety->soft_upper_limit) +
+                " (a soft limit that is not given is 0)");
+  if (lower == upper && variable.lower < variable.upper)
+    warnings.push_back(where + " cannot move: its <safety_controller> leaves only the position " + numberText(lower) +
+                       ", as in MoveIt (a soft limit that is not given is 0)");
+  if (lower > variable.lower || upper < variable.upper)
+    variable.limits_source = kSafetyController;
+  variable.lower = lower;
+  variable.upper = upper;
+  return variable;
+}
+
+void applyPositionLimits(const std::vector<PositionLimits>& limits, RobotTree& tree, std::vector<std::string>& warnings)
+{
+  std::vector<std::string> unknown;
+  for (const PositionLimits& entry : limits)
+  {
+    const Owner owner = ownerOf(tree, entry.variable);
+    if (owner.joint == nullptr)
+    {
+      unknown.push_back(entry.variable);
+      continue;
+    }
+    if (variableCount(owner.joint->type) > 1 && owner.joint->name == entry.variable)
+      throw Error(entry.source + ": joint '" + entry.variable + "' has several variables; name them as '" +
+                  tree.variables[static_cast<std::size_t>(owner.joint->first_variable)].name + "' and so on");
+    if (const std::string reason = whyWithoutLimits(owner); !reason.empty())
+      warnings.push_back(entry.source + ": the position limits of '" + entry.variable + "' are not used, because it " +
+                         reason);
+    else
+      setLimits(entry, tree.variables[static_cast<std::size_t>(owner.joint->first_variable + owner.part)]);
+  }
+  if (!unknown.empty())
+    warnings.push_back(limits.front().source + ": position limits are not used, because the robot does not have the " +
+                       "joint: " + nameList(unknown));
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,100 @@
+#include "gpu_planning_scene/planning_file.h"
+
+#include "gpu_planning_scene/error.h"
+#include "model/joint_limits_entry.h"
+#include "model/text/one_line.h"
+#include "scene/files/yaml_value.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+class PositionLimitsReader
+{
+ public:
+  PositionLimitsReader(std::string source, std::vector<std::string>* warnings)
+    : source_(std::move(source)), warnings_(warnings)
+  {
+  }
+
+  std::vector<PositionLimits> read(const YamlValue& file)
+  {
+    for (const auto& [key, value] : file.members())
+    {
+      if (const std::string meant = misspeltJointLimits(key); !meant.empty())
+        value.fail("unknown key '" + key + "'" + meant);
+      if (key.compare(0, 8, "default_") == 0 && key.find("scaling_factor") == std::string::npos)
+        warn(value.where() + ": '" + key + "' is not used here; only the node uses it");
+    }
+    if (const YamlValue* limits = file.find("joint_limits"))
+      for (const auto& [name, entry] : limits->members())
+        readEntry(name, entry);
+    if (limits_.empty())
+      warn(source_ + ": no position limits: joint_limits has no min_position and no max_position");
+    return std::move(limits_);
+  }
+
+ private:
+  void warn(const std::string& line)
+  {
+    if (warnings_ != nullptr)
+      warnings_->push_back(line);
+  }
+
+  /// The members are limits of the variable, or entries of the variables of a joint that has several.
+  void readEntry(const std::string& name, const YamlValue& value)
+  {
+    if (value.kind() == YamlValue::Kind::Null)
+      return;
+    JointLimitsEntry entry{name};
+    for (const auto& [key, member] : value.members())
+      if (member.kind() == YamlValue::Kind::Map)
+        readEntry(name + "/" + key, member);
+      else if (key == "has_position_limits")
+        entry.has_position_limits = member.boolean();
+      else if (key == "min_position")
+        entry.min_position = member.number();
+      else if (key == "max_position")
+        entry.max_position = member.number();
+      else if (const std::string meant = misspeltPositionLimit(key); !meant.empty())
+        member.fail("'" + name + "': unknown key '" + key + "'" + meant);
+    if (std::optional<PositionLimits> limits = positionLimits(entry, source_, warnings_))
+      limits_.push_back(std::move(*limits));
+  }
+
+  const std::string source_;
+  std::vector<std::string>* const warnings_;
+  std::vector<PositionLimits> limits_;
+};
+
+std::vector<PositionLimits> read(const YamlValue& file, const std::string& name, std::vector<std::string>* warnings)
+{
+  return PositionLimitsReader(name, warnings).read(file);
+}
+}  // namespace
+
+std::vector<PositionLimits> readPositionLimits(const std::string& path, std::vector<std::string>* warnings)
+{
+  try
+  {
+    return read(YamlValue::loadFile(path), path, warnings);
+  }
+  catch (const Error& error)
+  {
+    throw Error(onOneLine(error.what()));
+  }
+}
+
+std::vector<PositionLimits> positionLimitsFromText(const std::string& text, const std::string& name,
+                                                   std::vector<std::string>* warnings)
+{
+  try
+  {
+    return read(YamlValue::fromText(text, name), name, warnings);
+  }
+  catch (const Error& error)
+  {
+    throw Error(onOneLine(error.what()));
+  }
+}
+}  // namespace gpu_planning_scene::core

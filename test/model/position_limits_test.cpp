@@ -1,0 +1,209 @@
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "model/model_testing.h"
+#include "model/robot_text.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// A chain with a joint of each kind. `inside`: elements of the prismatic joint "slide" beside its limits, -1 to 2.
+std::string chainUrdf(const std::string& inside = "")
+{
+  std::string urdf;
+  for (const char* link : {"base", "a", "b", "c", "d", "e"})
+    urdf += boxLink(link);
+  return urdf + jointXml("slide", "prismatic", "base", "a", kLimits + inside) +
+         jointXml("elbow", "revolute", "a", "b", kLimits) + jointXml("turn", "continuous", "b", "c") +
+         jointXml("copy", "prismatic", "c", "d", kLimits + std::string("<mimic joint=\"slide\"/>")) +
+         jointXml("glued", "fixed", "d", "e");
+}
+
+std::string softLimits(const std::string& attributes)
+{
+  return "<safety_controller k_velocity=\"1\" " + attributes + "/>";
+}
+
+std::shared_ptr<const RobotModel> limited(const std::vector<PositionLimits>& limits,
+                                          std::vector<std::string>* warnings = nullptr, const std::string& srdf = "",
+                                          const std::string& inside = "")
+{
+  RobotModelOptions options;
+  options.position_limits = limits;
+  return RobotModel::fromXml("<robot name=\"test\">" + chainUrdf(inside) + "</robot>",
+                             srdf.empty() ? srdf : "<robot name=\"test\">" + srdf + "</robot>", options, warnings);
+}
+
+const Variable& variableOf(const RobotModel& robot, const std::string& name)
+{
+  return robot.variables().at(static_cast<std::size_t>(robot.variableIndex(name)));
+}
+
+void expectLimits(const RobotModel& robot, const std::string& name, double lower, double upper,
+                  const std::string& source)
+{
+  const Variable& variable = variableOf(robot, name);
+  EXPECT_TRUE(variable.bounded);
+  EXPECT_EQ(lower, variable.lower) << name;
+  EXPECT_EQ(upper, variable.upper) << name;
+  EXPECT_EQ(source, variable.limits_source) << name;
+}
+
+constexpr char kSoft[] = "the URDF's <safety_controller>";
+
+TEST(SoftLimits, NarrowTheLimitsOfTheUrdf)
+{
+  expectLimits(*robotOf(chainUrdf(softLimits("soft_lower_limit=\"-0.5\" soft_upper_limit=\"1.5\""))), "slide", -0.5,
+               1.5, kSoft);
+  expectLimits(*robotOf(chainUrdf(softLimits("soft_lower_limit=\"-0.5\" soft_upper_limit=\"5\""))), "slide", -0.5, 2.0,
+               kSoft);
+}
+
+TEST(SoftLimits, DoNotWidenTheLimitsOfTheUrdf)
+{
+  expectLimits(*robotOf(chainUrdf(softLimits("soft_lower_limit=\"-5\" soft_upper_limit=\"5\""))), "slide", -1.0, 2.0,
+               "");
+}
+
+TEST(SoftLimits, AreZeroWhereTheyAreMissing)
+{
+  std::vector<std::string> warnings;
+  expectLimits(*robotOf(chainUrdf(softLimits("soft_upper_limit=\"1.5\"")), "", &warnings), "slide", 0.0, 1.5, kSoft);
+  EXPECT_TRUE(warnings.empty());
+  expectLimits(*robotOf(chainUrdf(softLimits("")), "", &warnings), "slide", 0.0, 0.0, kSoft);
+  ASSERT_EQ(1u, warnings.size());
+  EXPECT_NE(std::string::npos, warnings[0].find("joint 'slide' cannot move: its <safety_controller> leaves only"));
+}
+
+TEST(SoftLimits, ThatLeaveNoPositionAreAnError)
+{
+  EXPECT_EQ(
+      "test.urdf:7: joint 'slide': no position is within its <limit>, -1 to 2, and its <safety_controller>, 3 to 4 (a "
+      "soft limit that is not given is 0)",
+      errorOf([] { robotOf(chainUrdf(softLimits("soft_lower_limit=\"3\" soft_upper_limit=\"4\""))); }));
+}
+
+TEST(PositionLimits, ReplaceTheLimitsOfTheUrdfByNarrowerAndByWiderOnes)
+{
+  const auto robot = limited({{"slide", 0.25, 0.5, "limits.yaml"}, {"elbow", -3.0, 3.0, "limits.yaml"}});
+  expectLimits(*robot, "slide", 0.25, 0.5, "limits.yaml");
+  expectLimits(*robot, "elbow", -3.0, 3.0, "limits.yaml");
+}
+
+TEST(PositionLimits, ReplaceSoftLimitsToo)
+{
+  const std::string soft = softLimits("soft_lower_limit=\"-0.5\" soft_upper_limit=\"0.5\"");
+  expectLimits(*limited({{"slide", -2.0, 2.0, "limits.yaml"}}, nullptr, "", soft), "slide", -2.0, 2.0, "limits.yaml");
+  expectLimits(*limited({{"slide", {}, 0.25, "limits.yaml"}}, nullptr, "", soft), "slide", -0.5, 0.25,
+               std::string(kSoft) + " and limits.yaml");
+}
+
+TEST(PositionLimits, OfOneSideKeepTheOtherSide)
+{
+  expectLimits(*limited({{"slide", 0.25, {}, "limits.yaml"}}), "slide", 0.25, 2.0, "limits.yaml");
+  expectLimits(*limited({{"slide", {}, 0.25, "limits.yaml"}}), "slide", -1.0, 0.25, "limits.yaml");
+}
+
+TEST(PositionLimits, HoldForRandomStatesAndTheDefaultState)
+{
+  const auto robot = limited({{"slide", 0.25, 0.5, "limits.yaml"}});
+  const auto slide = static_cast<std::size_t>(robot->variableIndex("slide"));
+  EXPECT_EQ(0.375, robot->defaultState()[slide]);
+  std::mt19937_64 generator(7);
+  std::vector<double> state(robot->variables().size());
+  double least = 1.0;
+  double most = 0.0;
+  for (int i = 0; i < 1000; ++i)
+  {
+    robot->randomState(generator, state.data());
+    least = std::min(least, state[slide]);
+    most = std::max(most, state[slide]);
+  }
+  EXPECT_GE(least, 0.25);
+  EXPECT_LE(most, 0.5);
+  EXPECT_LT(least, 0.26);
+  EXPECT_GT(most, 0.49);
+}
+
+TEST(PositionLimits, LimitTranslationsOfAPlanarJointAndNotItsRotation)
+{
+  const std::string srdf = R"(<virtual_joint name="drive" type="planar" parent_frame="world" child_link="base"/>)";
+  std::vector<std::string> warnings;
+  const auto robot =
+      limited({{"drive/x", 2.0, 3.0, "limits.yaml"}, {"drive/theta", -1.0, 1.0, "limits.yaml"}}, &warnings, srdf);
+  expectLimits(*robot, "drive/x", 2.0, 3.0, "limits.yaml");
+  EXPECT_FALSE(variableOf(*robot, "drive/y").bounded);
+  EXPECT_FALSE(variableOf(*robot, "drive/theta").bounded);
+  EXPECT_EQ(std::vector<std::string>{"limits.yaml: the position limits of 'drive/theta' are not used, because it is a "
+                                     "rotation of a planar or floating joint"},
+            warnings);
+  EXPECT_EQ(
+      "limits.yaml: 'drive/x' has only one position limit, and the URDF has none; give min_position and "
+      "max_position",
+      errorOf(
+          [&] {
+            limited({{"drive/x", 2.0, {}, "limits.yaml"}}, nullptr, srdf);
+          }));
+  EXPECT_EQ("limits.yaml: joint 'drive' has several variables; name them as 'drive/x' and so on",
+            errorOf(
+                [&] {
+                  limited({{"drive", 2.0, 3.0, "limits.yaml"}}, nullptr, srdf);
+                }));
+}
+
+TEST(PositionLimits, ThatCanHaveNoEffectGiveAWarning)
+{
+  std::vector<std::string> warnings;
+  const auto robot = limited({{"turn", -1.0, 1.0, "l"},
+                              {"copy", 0.0, 1.0, "l"},
+                              {"glued", 0.0, 1.0, "l"},
+                              {"elbo", 0.0, 1.0, "l"},
+                              {"slid", 0.0, 1.0, "l"}},
+                             &warnings);
+  EXPECT_EQ((std::vector<std::string>{
+                "l: the position limits of 'turn' are not used, because it is continuous; make it revolute in the URDF "
+                "to limit it",
+                "l: the position limits of 'copy' are not used, because it follows another joint, whose limits count",
+                "l: the position limits of 'glued' are not used, because it is fixed",
+                "l: position limits are not used, because the robot does not have the joint: elbo, slid"}),
+            warnings);
+  EXPECT_FALSE(variableOf(*robot, "turn").bounded);
+  expectLimits(*robot, "slide", -1.0, 2.0, "");
+}
+
+TEST(PositionLimits, ThatNoPositionIsWithinAreAnError)
+{
+  EXPECT_EQ("l: 'slide' has the position limits 1 to 0.5; the first must not be above the second",
+            errorOf(
+                [] {
+                  limited({{"slide", 1.0, 0.5, "l"}});
+                }));
+  EXPECT_EQ(
+      "l: 'slide' has the position limits 3 to 2; the first must not be above the second (one of them is that of "
+      "the URDF's <limit>)",
+      errorOf(
+          [] {
+            limited({{"slide", 3.0, {}, "l"}});
+          }));
+  for (const double wrong : {std::nan(""), HUGE_VAL, -HUGE_VAL})
+    EXPECT_EQ("l: 'slide' has a position limit that is not a finite number",
+              errorOf(
+                  [wrong] {
+                    limited({{"slide", -1.0, wrong, "l"}});
+                  }));
+}
+
+TEST(PositionLimits, AreDescribedWithTheirSources)
+{
+  const auto robot = limited({{"elbow", -0.25, 0.25, "limits.yaml"}}, nullptr, "",
+                             softLimits("soft_lower_limit=\"-0.5\" soft_upper_limit=\"0.5\""));
+  EXPECT_EQ((std::vector<std::string>{"limits from limits.yaml: elbow (-0.25 to 0.25)",
+                                      "limits from the URDF's <safety_controller>: slide (-0.5 to 0.5)"}),
+            describeLimitSources(*robot));
+  EXPECT_TRUE(describeLimitSources(*limited({})).empty());
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core

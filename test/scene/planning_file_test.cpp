@@ -1,0 +1,105 @@
+#include <filesystem>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/planning_file.h"
+#include "model/model_testing.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+std::vector<PositionLimits> limitsOf(const std::string& text, std::vector<std::string>* warnings = nullptr)
+{
+  return positionLimitsFromText(text, "limits.yaml", warnings);
+}
+
+std::string faultOf(const std::string& text)
+{
+  return errorOf([&text] { limitsOf(text); });
+}
+
+TEST(PlanningFile, HasThePositionLimitsOfJointLimits)
+{
+  std::vector<std::string> warnings;
+  const auto limits = limitsOf(
+      "joint_limits:\n"
+      "  elbow: {has_position_limits: true, min_position: -1, max_position: 0.5, has_velocity_limits: true, "
+      "max_velocity: 2}\n"
+      "  wrist: {has_velocity_limits: false, max_acceleration: 3}\n"
+      "  base: {x: {min_position: -2, max_position: 4}}\n"
+      "  base/y: {max_position: 5}\n"
+      "default_velocity_scaling_factor: 0.1\n",
+      &warnings);
+  EXPECT_TRUE(warnings.empty());
+  ASSERT_EQ(3u, limits.size());
+  EXPECT_EQ("elbow", limits[0].variable);
+  EXPECT_EQ(-1.0, limits[0].min_position);
+  EXPECT_EQ(0.5, limits[0].max_position);
+  EXPECT_EQ("limits.yaml", limits[0].source);
+  EXPECT_EQ("base/x", limits[1].variable);
+  EXPECT_EQ(4.0, limits[1].max_position);
+  EXPECT_EQ("base/y", limits[2].variable);
+  EXPECT_FALSE(limits[2].min_position);
+}
+
+TEST(PlanningFile, WithAWrongValueNamesItsLine)
+{
+  EXPECT_EQ("limits.yaml:2: 'low' is not a finite number", faultOf("joint_limits:\n  elbow: {min_position: low}"));
+  EXPECT_EQ("limits.yaml:2: '.nan' is not a finite number", faultOf("joint_limits:\n  elbow: {max_position: .nan}"));
+  EXPECT_EQ("limits.yaml:2: 'perhaps' is neither true nor false",
+            faultOf("joint_limits:\n  elbow: {has_position_limits: perhaps}"));
+  EXPECT_EQ("limits.yaml:2: expected 'key: value' pairs", faultOf("joint_limits:\n  elbow: 3"));
+}
+
+TEST(PlanningFile, WithAMisspeltLimitIsRefused)
+{
+  EXPECT_EQ("limits.yaml:1: unknown key 'joint_limit'; did you mean 'joint_limits'?",
+            faultOf("joint_limit: {elbow: {max_position: 1}}"));
+  EXPECT_EQ("limits.yaml:1: 'elbow': unknown key 'max_positon'; did you mean 'max_position'?",
+            faultOf("joint_limits: {elbow: {max_positon: 1}}"));
+  EXPECT_EQ("limits.yaml:1: 'elbow': unknown key 'has_position_limit'; did you mean 'has_position_limits'?",
+            faultOf("joint_limits: {elbow: {has_position_limit: true}}"));
+}
+
+TEST(PlanningFile, ThatContradictsItselfGivesAWarning)
+{
+  std::vector<std::string> warnings;
+  EXPECT_EQ(1u, limitsOf("joint_limits: {elbow: {has_position_limits: false, max_position: 1}}", &warnings).size());
+  EXPECT_EQ(std::vector<std::string>{"limits.yaml: 'elbow' has position limits although has_position_limits is false; "
+                                     "they are used, as in MoveIt, which does not read has_position_limits"},
+            warnings);
+  warnings.clear();
+  EXPECT_TRUE(limitsOf("joint_limits: {elbow: {has_position_limits: true}}", &warnings).empty());
+  EXPECT_EQ((std::vector<std::string>{
+                "limits.yaml: 'elbow' has neither min_position nor max_position, so its limits are those of the URDF",
+                "limits.yaml: no position limits: joint_limits has no min_position and no max_position"}),
+            warnings);
+}
+
+TEST(PlanningFile, WarnsOfParametersThatOnlyTheNodeApplies)
+{
+  std::vector<std::string> warnings;
+  limitsOf("default_robot_padding: 0.02\njoint_limits: {elbow: {max_position: 1}}", &warnings);
+  EXPECT_EQ(std::vector<std::string>{"limits.yaml:1: 'default_robot_padding' is not used here; only the node uses it"},
+            warnings);
+}
+
+TEST(PlanningFile, OfAnotherProjectLimitsItsRobotAsMoveItDoes)
+{
+  const std::string folder = std::string(GPS_SHARED_DIR) + "/cases/";
+  if (!std::filesystem::exists(folder + "limits.yaml"))
+    GTEST_SKIP() << folder << "limits.yaml does not exist";
+  RobotModelOptions options;
+  const auto range = [&]
+  {
+    const auto robot = RobotModel::fromFiles(folder + "limits.urdf", "", options);
+    const Variable& variable = robot->variables().at(static_cast<std::size_t>(robot->variableIndex("j2")));
+    return std::make_pair(variable.lower, variable.upper);
+  };
+  EXPECT_EQ(std::make_pair(0.1, 0.8), range());
+  options.position_limits = readPositionLimits(folder + "limits.yaml");
+  EXPECT_EQ(std::make_pair(0.2, 0.5), range());
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core
