@@ -43,11 +43,12 @@ std::string readFile(const std::string& path)
 }
 
 /// The text of the SRDF `path`; empty if `path` is empty. robotFrom has already said that it ran xacro.
-std::string baseOf(const std::string& path, const std::string& out_path)
+std::string baseOf(const std::string& path, const std::string& out_path,
+                   const std::map<std::string, std::string>& packages)
 {
   if (path.empty())
     return "";
-  const DescriptionText srdf = readDescription(path, "SRDF", {});
+  const DescriptionText srdf = readDescription(path, "SRDF", packages, {});
   std::error_code missing;  // equivalent() is false for a file that does not exist
   if (srdf.name != path && std::filesystem::equivalent(path, out_path, missing))
     throw Error(path + ": this is a xacro file, and the expanded SRDF would replace it; give another file as --out");
@@ -88,7 +89,8 @@ void run(const CommandLine& arguments)
   const GeneratedMatrix matrix = generateMatrix(robot, sampling);
   const std::string out_path = arguments.value("--out", "");
   const bool goes_on = !arguments.has("--srdf") && !out_path.empty() && std::filesystem::exists(out_path);
-  const std::string base = baseOf(goes_on ? out_path : arguments.value("--srdf", ""), out_path);
+  const std::string base =
+      baseOf(goes_on ? out_path : arguments.value("--srdf", ""), out_path, packageFoldersFrom(arguments));
   if (goes_on && robotNameOf(base) != robot->name())
     throw Error(out_path + ": the file exists and is not an SRDF of robot '" + robot->name() +
                 "'; choose another name");
