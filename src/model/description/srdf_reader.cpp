@@ -8,6 +8,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/description/xml_kind.h"
+#include "model/text/name_list.h"
 
 namespace gpu_planning_scene::core
 {
@@ -26,11 +27,6 @@ std::string trimmed(const std::string& text)
   const char* const blanks = " \t\r\n";
   const std::size_t begin = text.find_first_not_of(blanks);
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
-}
-
-bool contains(const std::vector<std::string>& names, const std::string& name)
-{
-  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 class SrdfReader

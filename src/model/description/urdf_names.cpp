@@ -1,12 +1,12 @@
 #include "model/description/urdf_names.h"
 
-#include <algorithm>
 #include <cstring>
 #include <map>
 
 #include <tinyxml2.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/text/name_list.h"
 
 // The elements and attributes are those of URDF 1.0 (http://wiki.ros.org/urdf/XML), and those of newer versions and of
 // Gazebo that change no collision geometry.
@@ -16,11 +16,6 @@ namespace
 {
 using tinyxml2::XMLElement;
 using Names = std::vector<std::string>;
-
-bool contains(const Names& names, const std::string& name)
-{
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 /// Whether a name belongs to another program, such as drake:capsule.
 bool hasPrefix(const std::string& name)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "model/text/name_list.h"
 #include "model/text/nearest_key.h"
 
 namespace gpu_planning_scene::core
@@ -71,12 +72,6 @@ const MapKeys& keysOf(SceneMap kind)
       {"a quaternion", FurtherKeys::Error, {"x", "y", "z", "w"}},
   };
   return maps[static_cast<std::size_t>(kind)];
-}
-
-template <typename List>
-bool contains(const List& list, const std::string& word)
-{
-  return std::find(list.begin(), list.end(), word) != list.end();
 }
 
 std::string singular(std::string word)
