@@ -109,8 +109,6 @@ const std::vector<Fault>& faults()
        "link 'a': unknown attribute 'radious' of <cylinder>; did you mean 'radius'?"},
       {"Scal", 6, false, "<mesh filename='x.stl' scal='0.001 0.001 0.001'/>",
        "link 'a': unknown attribute 'scal' of <mesh>; did you mean 'scale'?"},
-      {"AttributeTwice", 4, false, "<origin xyz='0 0 1' xyz='0 0 2'/>",
-       "link 'a': the attribute 'xyz' of <origin> is given twice"},
       {"AxisXzy", 15, false, "<axis xzy='0 0 1'/>", "joint 'j': unknown attribute 'xzy' of <axis>"},
       {"LimitLowr", 16, false, "<limit lowr='-1' upper='1' effort='1' velocity='1'/>",
        "joint 'j': unknown attribute 'lowr' of <limit>; did you mean 'lower'?"},

@@ -180,7 +180,8 @@ class SceneKeys : public testing::Test
   PlanningScene load(const std::string& yaml)
   {
     warnings_.clear();
-    return loadSceneText(yaml, "scene.yaml", folder_.path(""), sliderRobotOnFloor("planar"), {}, &warnings_);
+    static const auto robot = sliderRobotOnFloor("planar");
+    return loadSceneText(yaml, "scene.yaml", folder_.path(""), robot, {}, &warnings_);
   }
 
   std::string errorOfScene(const std::string& yaml)
@@ -270,6 +271,8 @@ TEST_F(SceneKeys, ThatAreMisspeltAreErrorsInEachMap)
     const std::string key = lines[i].substr(begin, colon - begin);
     for (const std::string& wrong : misspelt(key, random))
     {
+      if (wrong == "sec")
+        continue;  // the key of ROS 2 for secs
       std::vector<std::string> changed = lines;
       changed[i].replace(begin, key.size(), wrong);
       const std::string message = errorOfScene(joined(changed));

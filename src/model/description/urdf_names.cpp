@@ -166,14 +166,10 @@ class UrdfNames
 
   void checkAttributes(const XMLElement& element, const ElementKind& kind)
   {
-    Names seen;
     for (const auto* attribute = element.FirstAttribute(); attribute != nullptr; attribute = attribute->Next())
     {
       const std::string name = attribute->Name();
       const std::string of = "attribute '" + name + "' of <" + element.Name() + ">";
-      if (contains(seen, name))
-        fail(element, "the " + of + " is given twice");
-      seen.push_back(name);
       if (contains(kind.attributes, name) || hasPrefix(name))
         continue;
       if (name == "quat_xyzw")

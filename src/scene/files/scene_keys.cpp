@@ -196,6 +196,8 @@ void checkKeys(const YamlValue& map, SceneMap kind, std::vector<std::string>* wa
       continue;
     if (key == "<<")
       value.failAtKey("merge keys (<<) are not supported; write out the keys of the map");
+    if (keys.further == FurtherKeys::Warning && isPlacementOfOtherFormats(key))
+      value.failAtKey("unknown key '" + key + "' in " + keys.name + "; it has " + keyList(keys.known));
     refuseMisspelt(key, value, keys.known);
     if (keys.further == FurtherKeys::Error)
       value.failAtKey("unknown key '" + key + "' in " + keys.name + "; it has " + keyList(keys.known));
@@ -204,8 +206,6 @@ void checkKeys(const YamlValue& map, SceneMap kind, std::vector<std::string>* wa
     if (const std::string content = contentOf(value); !content.empty())
       value.failAtKey("unknown key '" + key + "' in " + keys.name + ": its '" + content + "' would be lost; " +
                       keys.name + " has " + keyList(keys.known));
-    if (isPlacementOfOtherFormats(key))
-      value.failAtKey("unknown key '" + key + "' in " + keys.name + "; it has " + keyList(keys.known));
     if (warnings != nullptr)
       warnings->push_back(value.keyWhere() + ": unknown key '" + key + "' is not used");
   }
@@ -230,6 +230,8 @@ const YamlValue* frameOf(const YamlValue* header)
   if (header == nullptr)
     return nullptr;
   checkKeys(*header, SceneMap::Header, nullptr);
+  if (const YamlValue* stamp = header->find("stamp"); stamp != nullptr && stamp->kind() == YamlValue::Kind::Map)
+    checkKeys(*stamp, SceneMap::Time, nullptr);
   const YamlValue* frame = header->find("frame_id");
   return frame != nullptr && frame->text().empty() ? nullptr : frame;
 }
