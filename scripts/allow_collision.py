@@ -24,6 +24,16 @@ def set_entry(matrix, first, second, is_allowed, make_row):
     matrix.entry_values[i].enabled[j] = matrix.entry_values[j].enabled[i] = is_allowed
 
 
+def set_default(matrix, name, is_allowed):
+    """Sets the default of a body: it decides for all pairs of the body without an entry, also with later bodies."""
+    names, values = list(matrix.default_entry_names), list(matrix.default_entry_values)
+    if name not in names:
+        names.append(name)
+        values.append(is_allowed)
+    values[names.index(name)] = is_allowed
+    matrix.default_entry_names, matrix.default_entry_values = names, values
+
+
 def require_known(scene, robot_bodies, names):
     """Ends the program if a name is neither a link nor an object, because its entry would apply to no body."""
     known = robot_bodies | {item.id for item in scene.world.collision_objects} | {"<octomap>"}
@@ -36,7 +46,8 @@ def require_known(scene, robot_bodies, names):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("bodies", nargs=2, metavar="BODY", help="a link, an object or an attached object")
+    parser.add_argument("bodies", nargs=2, metavar="BODY", help="a link, an object or an attached object; '*' as one "
+                        "of the two: all bodies without an entry for the other one, also those of later")
     parser.add_argument("--forbid", action="store_true", help="forbid the collision, so that the pair is checked")
     parser.add_argument("--node", default="/planning_scene", help="name of the node (default /planning_scene)")
     arguments = parser.parse_args()
@@ -49,9 +60,13 @@ def main():
     try:
         rospy.wait_for_service(arguments.node + "/apply_planning_scene", 5)
         scene = rospy.ServiceProxy(arguments.node + "/get_planning_scene", GetPlanningScene)().scene
-        require_known(scene, {item.link_name for item in scene.link_padding}, arguments.bodies)
+        named = [body for body in arguments.bodies if body != "*"]
+        require_known(scene, {item.link_name for item in scene.link_padding}, named)
         matrix = scene.allowed_collision_matrix
-        set_entry(matrix, *arguments.bodies, not arguments.forbid, AllowedCollisionEntry)
+        if len(named) == 1:
+            set_default(matrix, named[0], not arguments.forbid)
+        else:
+            set_entry(matrix, *named, not arguments.forbid, AllowedCollisionEntry)
         change = PlanningScene(is_diff=True, allowed_collision_matrix=matrix)
         change.robot_state.is_diff = True
         answer = rospy.ServiceProxy(arguments.node + "/apply_planning_scene", ApplyPlanningScene)(change)

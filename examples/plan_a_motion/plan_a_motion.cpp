@@ -152,6 +152,7 @@ try
   const PackageResolver packages = packageResolver(arguments.packages, "name its folder (--package NAME=FOLDER)");
   RobotModelOptions options;
   options.packages = packages;
+  options.package_folders = arguments.packages;  // for xacro's $(find NAME)
   const auto robot = RobotModel::fromFiles(words[0], words[1], options);
   const auto scene = std::make_shared<PlanningScene>(words.size() == 6 ? loadSceneFile(words[5], robot, packages)
                                                                        : PlanningScene(robot));

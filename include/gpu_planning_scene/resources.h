@@ -28,7 +28,8 @@ PackageResolver packageResolver(std::map<std::string, std::string> folders,
 
 /// Turns a mesh URI into a file path. `uri`: package://NAME/PATH, file:///PATH, an absolute path, or a path relative to
 /// `base_folder`. `base_folder`: the folder of the URDF; if it is empty, relative paths are refused. Escapes such as
-/// %20 are decoded in URIs. Throws Error that names the URI. The function does not check that the file exists.
+/// %20 are decoded in URIs. package:///NAME/PATH is read as package://NAME/PATH. Throws Error that names the URI. The
+/// function does not check that the file exists.
 std::string resolveUri(const std::string& uri, const std::string& base_folder, const PackageResolver& packages);
 
 /// Reads a mesh file and scales it per axis. Throws Error.

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <random>
@@ -123,7 +124,9 @@ struct SrdfCollisions
 
 struct RobotModelOptions
 {
-  PackageResolver packages;                              ///< may be empty if no URI names a package
+  PackageResolver packages;  ///< may be empty if no URI names a package
+  /// Folders of packages by their names: $(find NAME) in xacro files finds these first, then those on ROS_PACKAGE_PATH.
+  std::map<std::string, std::string> package_folders;
   MeshAccess meshes;                                     ///< how to read mesh files, and from which folders
   std::string urdf_folder;                               ///< base folder of relative mesh paths; may be empty
   std::string urdf_name = "robot_description";           ///< for messages: name of the file or parameter
@@ -146,10 +149,12 @@ class Kinematics;
 class RobotModel : public std::enable_shared_from_this<RobotModel>
 {
  public:
-  /// `urdf` and `srdf` are XML texts; an empty `srdf` means that there is none. `warnings` (may be null) receives a
-  /// line for each harmless fault, for example an SRDF entry with an unknown link. The limits of a joint are those of
-  /// its <limit>, and of its <safety_controller> where those are narrower, as in MoveIt. Throws Error with name and
-  /// line for malformed XML, missing meshes, unknown links or joints in groups, and limits that no position is within.
+  /// `urdf` and `srdf` are XML texts in UTF-8 or ISO-8859-1; an empty `srdf` means that there is none. `warnings` (may
+  /// be null) receives a line for each harmless fault, for example an SRDF entry with an unknown link, or a group with
+  /// an unknown joint, which is left out as in MoveIt. The limits of a joint are those of its <limit>, and of its
+  /// <safety_controller> where those are narrower, as in MoveIt. Throws Error with name and line for malformed XML,
+  /// missing meshes, limits that no position is within, and names in the URDF that are misspelt or in the wrong place,
+  /// if a shape or its pose would be lost.
   static std::shared_ptr<const RobotModel> fromXml(const std::string& urdf, const std::string& srdf,
                                                    const RobotModelOptions& options,
                                                    std::vector<std::string>* warnings = nullptr);

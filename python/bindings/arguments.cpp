@@ -195,22 +195,25 @@ std::string pathFrom(py::handle object, const char* what)
   return py::reinterpret_steal<py::bytes>(bytes);
 }
 
+std::map<std::string, std::string> packageFoldersFrom(py::handle object)
+{
+  std::map<std::string, std::string> folders;
+  if (!py::isinstance<py::dict>(object))
+    return folders;
+  for (const auto& [name, folder] : py::reinterpret_borrow<py::dict>(object))
+  {
+    if (!py::isinstance<py::str>(name))
+      throwTypeError("packages: the name of a package: " + expectedButGot("a str", name));
+    folders[name.cast<std::string>()] = pathFrom(folder, "the folder of a package");
+  }
+  return folders;
+}
+
 core::PackageResolver packagesFrom(py::handle object)
 {
-  const char* remedy = "give the folder of NAME in the argument packages of this call";
-  if (object.is_none())
-    return core::packageResolver({}, remedy);
-  if (py::isinstance<py::dict>(object))
-  {
-    std::map<std::string, std::string> folders;
-    for (const auto& [name, folder] : py::reinterpret_borrow<py::dict>(object))
-    {
-      if (!py::isinstance<py::str>(name))
-        throwTypeError("packages: the name of a package: " + expectedButGot("a str", name));
-      folders[name.cast<std::string>()] = pathFrom(folder, "the folder of a package");
-    }
-    return core::packageResolver(std::move(folders), remedy);
-  }
+  if (object.is_none() || py::isinstance<py::dict>(object))
+    return core::packageResolver(packageFoldersFrom(object),
+                                 "give the folder of NAME in the argument packages of this call");
   if (PyCallable_Check(object.ptr()) == 0)
     throwTypeError("packages: " + expectedButGot("a dict or a function", object));
   return pathFunctionOf(py::reinterpret_borrow<py::function>(object), "the folder of a package");

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -81,6 +82,8 @@ std::string pathFrom(py::handle object, const char* what);
 
 /// None, a dict of folders by name, or a function from a name to a folder or None.
 core::PackageResolver packagesFrom(py::handle object);
+/// The folders by name; empty if `object` is None or a function.
+std::map<std::string, std::string> packageFoldersFrom(py::handle object);
 
 /// None, or a function from the URI of a mesh or octomap file to its path or None.
 core::MeshAccess meshesFrom(py::handle files);

@@ -39,6 +39,7 @@ core::RobotModelOptions optionsFrom(py::handle packages, double unbounded_transl
 {
   core::RobotModelOptions options;
   options.packages = packagesFrom(packages);
+  options.package_folders = packageFoldersFrom(packages);
   options.meshes = meshesFrom(files);
   options.info = [](const std::string& line)
   {
@@ -88,14 +89,12 @@ RobotPtr fromXml(const Arg<std::string>& urdf, const Arg<std::string>& srdf, con
   return loaded([&](auto* warnings) { return RobotModel::fromXml(urdf.value, srdf.value, options, warnings); });
 }
 
-py::str decoded(const std::string& text, const std::string& file)
+/// The text of a description, which is UTF-8, without a byte order mark.
+py::str decoded(const std::string& text)
 {
   PyObject* decoded = PyUnicode_Decode(text.data(), static_cast<Py_ssize_t>(text.size()), "utf-8-sig", "strict");
   if (decoded == nullptr)
-  {
-    PyErr_Clear();
-    throw core::Error(file + ": the file is not UTF-8; save it in this encoding");
-  }
+    throw py::error_already_set();
   return py::reinterpret_steal<py::str>(decoded);
 }
 
@@ -108,14 +107,14 @@ py::tuple withTexts(const py::object& urdf, const py::object& srdf, const py::ob
   options.position_limits = limitsOfFile(pathFrom(planning, "planning"));
   const std::string urdf_path = pathFrom(urdf, "urdf");
   const std::string srdf_path = pathFrom(srdf, "srdf");
-  const core::RobotDescription read =
-      withoutLock([&] { return core::readRobotDescription(urdf_path, srdf_path, options.info); });
+  const core::RobotDescription read = withoutLock(
+      [&] { return core::readRobotDescription(urdf_path, srdf_path, options.package_folders, options.info); });
   options.urdf_folder = read.urdf_folder;
   options.urdf_name = read.urdf.name;
   options.srdf_name = read.srdf.name;
   const RobotPtr robot =
       loaded([&](auto* warnings) { return RobotModel::fromXml(read.urdf.text, read.srdf.text, options, warnings); });
-  return py::make_tuple(robot, decoded(read.urdf.text, urdf_path), decoded(read.srdf.text, srdf_path));
+  return py::make_tuple(robot, decoded(read.urdf.text), decoded(read.srdf.text));
 }
 
 /// Calls `work(i)` for all indices below `count`, and ends when a signal handler raises an exception.

@@ -10,14 +10,18 @@ say_progress()
   done
 }
 
-# configure_and_build FOLDER CMAKE_OPTIONS...: shows the output only after a failure. If `target` is set, builds only
-# this target. The headers of FCL, OMPL and ROS take most of the time to compile, so the libraries are a unity build:
-# it reads each header once for twelve files. ccache is used where it is installed. Programs are not linked again if
-# only a shared library has changed.
+# configure_and_build FOLDER [--target TARGET] CMAKE_OPTIONS...: shows the output only after a failure. With --target,
+# builds only this target. The headers of FCL, OMPL and ROS take most of the time to compile, so the libraries are a
+# unity build: it reads each header once for twelve files. ccache is used where it is installed. Programs are not linked
+# again if only a shared library has changed.
 configure_and_build()
 {
-  local folder=$1 log="$1/build.log" launcher progress built=0
+  local folder=$1 log="$1/build.log" launcher progress built=0 only=()
   shift
+  if [[ "${1:-}" == --target ]]; then
+    only=(--target "$2")
+    shift 2
+  fi
   launcher="$(command -v ccache || true)"
   # Otherwise ccache compiles every file that uses precompiled headers.
   export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros}"
@@ -32,7 +36,7 @@ configure_and_build()
   progress=$!
   started+=("$progress")
   disown  # otherwise bash reports its end
-  run cmake --build "$folder" ${target:+--target "$target"} >> "$log" 2>&1 || built=$?
+  run cmake --build "$folder" "${only[@]}" >> "$log" 2>&1 || built=$?
   stop "$progress"
   if ((built != 0)); then
     grep -A 30 -m 1 '^FAILED' "$log" >&2 || tail -40 "$log" >&2

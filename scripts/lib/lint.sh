@@ -62,10 +62,11 @@ lint()
     say "clang-tidy is left out: the code is held to version 14, and other versions have other findings"
     return
   fi
-  local list="$temporary/lint" folder="$build/lint" target=gpu_planning_scene_generate_messages_cpp
+  local list="$temporary/lint" folder="$build/lint"
   files_to_lint > "$list.changed"
   if [[ -s "$list.changed" ]]; then
-    configure_and_build "$folder" -DCMAKE_BUILD_TYPE=Debug -DCMAKE_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
+    configure_and_build "$folder" --target gpu_planning_scene_generate_messages_cpp -DCMAKE_BUILD_TYPE=Debug \
+      -DCMAKE_UNITY_BUILD=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON
     # The compile commands do not include files of other builds, such as test/install.
     sed "s|^|$repository/|" "$list.changed" |
       while read -r file; do

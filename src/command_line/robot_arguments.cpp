@@ -9,7 +9,9 @@ namespace gpu_planning_scene::core
 Option packageOption()
 {
   return {"--package", "NAME=DIR",
-          "the folder of package://NAME/...; packages on ROS_PACKAGE_PATH\nneed no option; can be repeated", true};
+          "the folder of package://NAME/..., and of $(find NAME) in xacro\nfiles; packages on ROS_PACKAGE_PATH need no "
+          "option; can be\nrepeated",
+          true};
 }
 
 std::vector<Option> robotOptions()
@@ -36,7 +38,7 @@ std::vector<Option> deviceOptions()
            "reported as colliding"}};
 }
 
-PackageResolver packagesFrom(const CommandLine& arguments)
+std::map<std::string, std::string> packageFoldersFrom(const CommandLine& arguments)
 {
   std::map<std::string, std::string> folders;
   for (const std::string& package : arguments.values("--package"))
@@ -47,7 +49,12 @@ PackageResolver packagesFrom(const CommandLine& arguments)
     if (!folders.emplace(package.substr(0, equals), package.substr(equals + 1)).second)
       throw UsageError("--package: '" + package.substr(0, equals) + "' is given twice");
   }
-  return packageResolver(folders, "name its folder (--package NAME=DIR)");
+  return folders;
+}
+
+PackageResolver packagesFrom(const CommandLine& arguments)
+{
+  return packageResolver(packageFoldersFrom(arguments), "name its folder (--package NAME=DIR)");
 }
 
 std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, std::vector<std::string>* warnings)
@@ -60,6 +67,7 @@ std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, const 
 {
   RobotModelOptions options;
   options.packages = packagesFrom(arguments);
+  options.package_folders = packageFoldersFrom(arguments);
   options.unbounded_translation = arguments.number("--unbounded-translation", options.unbounded_translation, 0.0, 1e6);
   if (const std::string planning = arguments.value("--planning", ""); !planning.empty())
     options.position_limits = readPositionLimits(planning, warnings);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,6 +19,8 @@ std::vector<Option> robotOptions();
 Option packageOption();
 std::vector<Option> deviceOptions();
 
+/// The NAME=DIR of each --package. Throws UsageError for any other text.
+std::map<std::string, std::string> packageFoldersFrom(const CommandLine& arguments);
 /// Resolves packages by the NAME=DIR of each --package, then by ROS_PACKAGE_PATH.
 PackageResolver packagesFrom(const CommandLine& arguments);
 std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, std::vector<std::string>* warnings);

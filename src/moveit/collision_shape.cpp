@@ -6,6 +6,7 @@
 #include <octomap/OcTree.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/zero_size.h"
 #include "scene/message_values.h"
 
 // Converts MoveIt's shapes. Primitives are tested as solids, so they need no triangles.
@@ -61,8 +62,13 @@ const CollisionShape& CollisionShape::faulty()
   return shape;
 }
 
-void CollisionShape::setSolid(const core::Shape& shape)
+void CollisionShape::setSolid(core::Shape shape)
 {
+  if (core::thicken(shape) == core::ZeroSize::Point)
+  {
+    kind_ = ShapeKind::Empty;
+    return;
+  }
   core::validateShape(shape, "shape");
   const bool mesh = std::holds_alternative<std::shared_ptr<const core::Mesh>>(shape);
   tree_ = mesh ? core::cpuTreeOf(shape, core::tessellate(shape)) : core::makeSolidTree(shape);

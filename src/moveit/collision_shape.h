@@ -18,7 +18,7 @@ enum class ShapeKind
   Solid,      ///< a box, sphere, cylinder, cone or mesh
   HalfSpace,  ///< a plane, with everything behind it
   Octree,     ///< the occupied leaves of an octree
-  Empty,      ///< a mesh without triangles; it collides with nothing
+  Empty,      ///< a mesh without triangles, or a point; it collides with nothing
   Faulty      ///< cannot be checked; it collides with everything that it is checked against
 };
 
@@ -55,7 +55,7 @@ class CollisionShape
  private:
   CollisionShape() = default;
   void convert(const shapes::Shape& shape, double scale, const std::string& name);
-  void setSolid(const core::Shape& shape);
+  void setSolid(core::Shape shape);
 
   ShapeKind kind_ = ShapeKind::Faulty;
   std::string fault_;

@@ -6,6 +6,8 @@
 #include <iostream>
 #include <limits>
 
+#include <unistd.h>
+
 #include "collision/batch_size.h"
 #include "collision/checkers/open_checker.h"
 #include "collision/checkers/scene_text.h"
@@ -45,6 +47,9 @@ void checkUsage(const CommandLine& arguments)
 
 /// Fewer states get no rate, because most of their time is preparation.
 constexpr std::size_t kFewestStatesWithRate = 100;
+
+/// A terminal gets no more answers than it can show. The summary has the counts.
+constexpr std::size_t kMostRowsOfTerminal = 30;
 
 struct Checked
 {
@@ -171,7 +176,12 @@ void run(const CommandLine& arguments)
   if (const std::string warning = checker->deviceWarning(); warning != at_start)
     std::cerr << "warning: " << warning << "\n";
 
-  if (out_path.empty())
+  if (out_path.empty() && isatty(STDOUT_FILENO) != 0 && source->count() > kMostRowsOfTerminal)
+  {
+    std::cerr << "answers: " << counted(source->count(), "row") << ", not printed to the terminal; give --out FILE, or "
+              << "redirect the output\n";
+  }
+  else if (out_path.empty())
   {
     writeAnswers(std::cout, checked.states, *scene);
   }
@@ -200,6 +210,7 @@ int main(int argc, char** argv)
                   "Checks which states of a robot are free of collision. Answers in CSV: the header\n"
                   "valid,body_1,body_2, then one line per state: 1 and two empty names, or 0 and a pair of\n"
                   "bodies that collide.\n"
+                  "More than 30 answers are not printed to a terminal, only to a file or a pipe.\n"
                   "A summary goes to the standard error; its last line is\n"
                   "  N states, V valid, R states/s, DEVICE\n"
                   "For fewer than 100 states, 'R states/s' is left out, because most of the time is preparation.\n"

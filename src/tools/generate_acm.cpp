@@ -48,11 +48,12 @@ std::string readFile(const std::string& path)
 }
 
 /// The text of the SRDF `path`; empty if `path` is empty. robotFrom has already said that it ran xacro.
-std::string baseOf(const std::string& path, const std::string& out_path)
+std::string baseOf(const std::string& path, const std::string& out_path,
+                   const std::map<std::string, std::string>& packages)
 {
   if (path.empty())
     return "";
-  const DescriptionText srdf = readDescription(path, "SRDF", {});
+  const DescriptionText srdf = readDescription(path, "SRDF", packages, {});
   std::error_code missing;  // equivalent() is false for a file that does not exist
   if (srdf.name != path && std::filesystem::equivalent(path, out_path, missing))
     throw Error(path + ": this is a xacro file, and the expanded SRDF would replace it; give another file as --out");
@@ -160,7 +161,7 @@ void run(const CommandLine& arguments)
   std::vector<std::string> warnings;
   const auto robot = robotFrom(arguments, base_path, &warnings);
   printWarnings(warnings);
-  const std::string base = baseOf(base_path, out_path);
+  const std::string base = baseOf(base_path, out_path, packageFoldersFrom(arguments));
   const GeneratedMatrix matrix = generateMatrix(robot, generator);
   const std::string srdf = srdfWith(matrix, *robot, generator, base);
   if (arguments.has("--out"))

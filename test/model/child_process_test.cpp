@@ -108,7 +108,7 @@ TEST(ChildProcess, WithoutAStatusIsAnErrorThatNamesTheCause)
   const XacroStandIn xacro("echo \"<robot name='r'/>\"");
   const IgnoredChildren ignored;
   EXPECT_EQ("URDF '" + path + "' is a xacro file: " + xacro.program() + " has ended, but " + kNoStatus,
-            errorOf([&] { readDescription(path, "URDF", {}); }));
+            errorOf([&] { readDescription(path, "URDF", {}, {}); }));
   MeshLimits limits;
   EXPECT_EQ(std::string("mesh file '/x/exit.stl': the reader has ended, but ") + kNoStatus,
             errorOf([&] { childMeshReader(GPS_FAULTY_MESH_READER, limits)("/x/exit.stl", Eigen::Vector3d::Ones()); }));

@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <map>
 #include <variant>
 
 #include <gtest/gtest.h>
@@ -34,12 +36,13 @@ class XacroFile : public testing::Test
   DescriptionText read(double seconds = 30.0)
   {
     return readDescription(
-        path_, "URDF", [this](const std::string& line) { info_.push_back(line); }, seconds);
+        path_, "URDF", packages_, [this](const std::string& line) { info_.push_back(line); }, seconds);
   }
 
   TemporaryFolder folder_;
   std::string path_ = folder_.write("Sam's arm, new $(x).urdf.xacro", kRobot);
   std::vector<std::string> info_;
+  std::map<std::string, std::string> packages_;
 };
 
 TEST_F(XacroFile, IsExpandedWhereXacroIsInstalled)
@@ -55,6 +58,42 @@ TEST_F(XacroFile, IsExpandedWhereXacroIsInstalled)
   EXPECT_TRUE(warnings.empty()) << warnings[0];
   const std::string by = "' is a xacro file: it was expanded with its default arguments by " + xacro.program();
   EXPECT_EQ((std::vector<std::string>{"SRDF '" + srdf + by, "URDF '" + path_ + by}), info_);
+}
+
+/// Does what xacro does: looks for a folder with the package's manifest on ROS_PACKAGE_PATH, and reads a file there.
+const char* const kFindingXacro = R"(
+for folder in $(echo "$ROS_PACKAGE_PATH" | tr ':' ' '); do
+  if grep -qs '<name>my_arm</name>' "$folder/package.xml"; then found=$folder; break; fi
+done
+cat "${found:?no package my_arm}/urdf/arm.xml" | sed "s|FOLDER|$found|")";
+
+TEST_F(XacroFile, FindsTheGivenPackages)
+{
+  // The folder of the package has another name and another manifest.
+  folder_.write("checkout/package.xml", "<package><name>other</name></package>");
+  folder_.write("checkout/urdf/arm.xml", "<robot name='r'><link name='FOLDER/meshes'/></robot>");
+  const XacroStandIn xacro(kFindingXacro);
+  packages_ = {{"my_arm_2", folder_.path("")}, {"my_arm", folder_.path("checkout")}};
+  EXPECT_EQ("<robot name='r'><link name='" + folder_.path("checkout") + "/meshes'/></robot>", read().text);
+  packages_ = {{"my_arm", folder_.path("none")}};
+  EXPECT_EQ("the folder '" + folder_.path("none") + "' does not exist; check the folder given for package 'my_arm'",
+            errorOf([&] { read(); }));
+  RobotModelOptions options;
+  options.package_folders = {{"my_arm", folder_.path("checkout")}};
+  EXPECT_EQ(1u, RobotModel::fromFiles(path_, "", options)->links().size());
+}
+
+TEST_F(XacroFile, LeavesNothingOfTheGivenPackagesBehind)
+{
+  const std::string seen = folder_.write("seen", "");
+  const XacroStandIn xacro("echo \"${ROS_PACKAGE_PATH%%:*}\" > '" + seen + "'; ls -d \"${ROS_PACKAGE_PATH%%:*}\"");
+  packages_ = {{"a", folder_.path("")}};
+  EXPECT_EQ(folder_.path(""), read().text.substr(0, folder_.path("").size()));
+  std::ifstream file(seen);
+  std::string package;
+  std::getline(file, package);
+  EXPECT_EQ("a", std::filesystem::path(package).filename());
+  EXPECT_FALSE(std::filesystem::exists(package)) << package;
 }
 
 TEST_F(XacroFile, FaultsOfTheExpandedTextNameXacroAndTheLineOfItsOutput)

@@ -8,11 +8,6 @@ namespace
 {
 using Names = std::vector<std::string>;
 
-void expectError(const std::string& srdf, const std::string& text)
-{
-  EXPECT_NE(srdfError(srdf).find(text), std::string::npos) << srdf << ": " << srdfError(srdf);
-}
-
 TEST(Groups, JointsLinksChainsAndSubgroupsAddJoints)
 {
   const auto robot = robotOf(armUrdf(), R"(
@@ -81,21 +76,49 @@ TEST(Groups, AVirtualJointCanBelongToAGroup)
   EXPECT_EQ(robot->group("base_by_link").joints, robot->group("base").joints);
 }
 
-TEST(Groups, UnknownNamesAreErrorsWithTheirLine)
+/// Expects that the SRDF gives these warnings, and returns the robot.
+std::shared_ptr<const RobotModel> robotWith(const std::string& srdf, const Names& expected)
 {
-  expectError("\n<group name=\"g\">\n<joint name=\"x\"/></group>", "test.srdf:3: group 'g' names joint 'x'");
-  expectError("\n<group name=\"g\"><link name=\"x\"/></group>", "test.srdf:2: group 'g' names link 'x'");
-  expectError("<group name=\"g\"><chain base_link=\"x\" tip_link=\"hand\"/></group>", "link 'x'");
-  expectError("<group name=\"g\"><chain base_link=\"base\" tip_link=\"y\"/></group>", "link 'y'");
-  expectError("<group name=\"g\"><group name=\"h\"/></group>", "subgroup 'h'");
+  Names warnings;
+  auto robot = robotOf(armUrdf(), srdf, &warnings);
+  EXPECT_EQ(expected, warnings);
+  return robot;
 }
 
-TEST(Groups, GroupsThatContainThemselvesAreErrors)
+TEST(Groups, UnknownNamesAreLeftOutWithAWarning)
 {
-  expectError("<group name=\"g\"><group name=\"g\"/></group>", "group 'g' contains itself");
-  expectError(R"(<group name="a"><group name="b"/></group><group name="b"><group name="c"/></group>
-                 <group name="c"><group name="a"/></group>)",
-              "group 'a' contains itself");
+  const std::string not_there = "', which the robot does not have; the entry is left out";
+  const auto robot = robotWith(
+      R"(
+    <group name="g">
+      <joint name="x"/><joint name="pan"/>
+      <link name="y"/>
+      <chain base_link="z" tip_link="hand"/>
+      <chain base_link="base" tip_link="w"/>
+    </group>)",
+      {"test.srdf:3: group 'g' names joint 'x" + not_there, "test.srdf:4: group 'g' names link 'y" + not_there,
+       "test.srdf:5: group 'g' names link 'z" + not_there, "test.srdf:6: group 'g' names link 'w" + not_there});
+  EXPECT_EQ((Names{"pan"}), jointNames(*robot, robot->group("g").joints));
+}
+
+TEST(Groups, GroupsWithoutASubgroupAndGroupsInCirclesAreLeftOut)
+{
+  const auto robot = robotWith(
+      R"(<group name="good"><joint name="pan"/></group>
+         <group name="g"><group name="good"/><group name="h"/></group>
+         <group name="over_g"><joint name="pan"/><group name="g"/></group>
+         <group name="self"><group name="self"/></group>
+         <group name="a"><group name="b"/></group>
+         <group name="b"><group name="a"/></group>
+         <group_state name="s" group="a"/>)",
+      {"test.srdf:2: group 'g' is left out: its subgroup 'h' does not exist",
+       "test.srdf:3: group 'over_g' is left out: its subgroup 'g' is left out too, or contains this group",
+       "test.srdf:4: group 'self' is left out: its subgroup 'self' is left out too, or contains this group",
+       "test.srdf:5: group 'a' is left out: its subgroup 'b' is left out too, or contains this group",
+       "test.srdf:6: group 'b' is left out: its subgroup 'a' is left out too, or contains this group",
+       "test.srdf:7: state 's' is ignored: its group 'a' does not exist"});
+  ASSERT_EQ(1u, robot->groups().size());
+  EXPECT_EQ("good", robot->groups()[0].name);
 }
 
 TEST(Groups, ASharedSubgroupIsNoLoop)
@@ -115,11 +138,24 @@ TEST(Groups, TheErrorForAMissingNameAsksForOneAndListsTheGroups)
   EXPECT_EQ("robot '" + robot->name() + "' has no group 'h'; its groups: g", errorOf([&] { robot->group("h"); }));
 }
 
-TEST(Groups, MissingAttributesAreErrors)
+TEST(Groups, ElementsWithoutANeededAttributeAreLeftOutWithAWarning)
 {
-  expectError("<group/>", "test.srdf:1: <group> lacks the attribute 'name'");
-  expectError("<group name=\"g\"><chain base_link=\"base\"/></group>", "'tip_link'");
-  expectError("<group name=\"g\"><joint/></group>", "<joint> lacks the attribute 'name'");
+  const auto robot = robotWith(
+      R"(<group/>
+         <group name="g"><chain base_link="base"/><joint name="pan"/>
+           <joint/><group/>
+         </group>)",
+      {"test.srdf:1: <group> lacks the attribute 'name'; it is left out",
+       "test.srdf:3: <joint> lacks the attribute 'name'; it is left out",
+       "test.srdf:3: <group> lacks the attribute 'name'; it is left out",
+       "test.srdf:2: <chain> lacks the attribute 'tip_link'; it is left out"});
+  EXPECT_EQ((Names{"pan"}), jointNames(*robot, robot->group("g").joints));
+}
+
+TEST(Groups, NamesAreTrimmedAsInMoveIt)
+{
+  const auto robot = robotWith(R"(<group name=" g "><joint name="pan "/></group>)", {});
+  EXPECT_EQ((Names{"pan"}), jointNames(*robot, robot->group("g").joints));
 }
 
 TEST(Groups, OddGroupsGiveWarnings)

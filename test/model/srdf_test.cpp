@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -152,11 +153,64 @@ TEST(Srdf, PassiveJointsAreMarked)
 TEST(Srdf, MalformedXmlIsAnErrorWithItsLine)
 {
   EXPECT_NE(srdfError("\n<group name=\"g\">\n</grop>").find("test.srdf:"), std::string::npos);
-  EXPECT_NE(srdfError("<disable_collisions link1=\"base\"/>").find("test.srdf:1: <disable_collisions> lacks"),
-            std::string::npos);
   EXPECT_NE(errorOf([] { RobotModel::fromXml("<robot name=\"r\"><link name=\"a\"/></robot>", "<srdf/>", {}); })
                 .find("robot_description_semantic:1: the root element is <srdf>"),
             std::string::npos);
+}
+
+TEST(Srdf, ElementsWithoutANeededAttributeAreLeftOutWithAWarning)
+{
+  std::vector<std::string> warnings;
+  const auto robot = robotOf(armUrdf(), R"(
+    <disable_collisions link1="base"/>
+    <passive_joint/>
+    <disable_default_collisions/>
+    <group name="g"><joint name="pan"/></group>
+    <group_state name="no_group"><joint name="pan" value="1"/></group_state>
+    <group_state group="g"><joint name="pan" value="1"/></group_state>
+    <group_state name="s" group="g"><joint value="1"/><joint name="pan"/></group_state>)",
+                             &warnings);
+  const std::vector<std::string> expected = {
+      "test.srdf:6: <group_state name=\"no_group\"> lacks the attribute 'group'; it is left out",
+      "test.srdf:7: <group_state> lacks the attribute 'name'; it is left out",
+      "test.srdf:8: <joint> lacks the attribute 'name'; it is left out",
+      "test.srdf:8: <joint name=\"pan\"> lacks the attribute 'value'; it is left out",
+      "test.srdf:3: <passive_joint> lacks the attribute 'name'; it is left out",
+      "test.srdf:2: <disable_collisions> lacks the attribute 'link2'; it is left out",
+      "test.srdf:4: <disable_default_collisions> lacks the attribute 'link'; it is left out"};
+  EXPECT_EQ(expected, warnings);
+  ASSERT_EQ(1u, robot->namedStates().size());
+  EXPECT_EQ("s", robot->namedStates()[0].name);
+}
+
+TEST(Srdf, AnIncompleteEntryThatAsksForAnotherCheckIsAnError)
+{
+  EXPECT_EQ("test.srdf:1: <enable_collisions> lacks the attribute 'link2'",
+            srdfError("<enable_collisions link1=\"base\"/>"));
+}
+
+TEST(Srdf, MisspeltElementsAreErrorsIfPairsWouldGoUnchecked)
+{
+  for (const auto& [srdf, wrong, meant] : std::vector<std::array<std::string, 3>>{
+           {"<enable_collision link1='base' link2='hand'/>", "enable_collision", "enable_collisions"},
+           {"<virtual-joint/>", "virtual-joint", "virtual_joint"},
+           {"<groups name='g'/>", "groups", "group"},
+           {"<group name='g'><chian/></group>", "chian", "chain"},
+           {"<group name='g'><joints/></group>", "joints", "joint"}})
+    EXPECT_EQ("test.srdf:1: unknown element <" + wrong + ">; did you mean <" + meant + ">?", srdfError(srdf));
+}
+
+TEST(Srdf, OtherMisspeltElementsAreWarningsAndForeignOnesPass)
+{
+  std::vector<std::string> warnings;
+  robotOf(armUrdf(), R"(<disable_collision link1="base" link2="hand"/>
+<group_states name="s" group="g"/>
+<joint_property/><tool_frame/><group name="g"><joint name="pan"/><passive_joint name="pan"/><note/></group>)",
+          &warnings);
+  EXPECT_EQ((std::vector<std::string>{
+                "test.srdf:1: unknown element <disable_collision>; did you mean <disable_collisions>? It is left out",
+                "test.srdf:2: unknown element <group_states>; did you mean <group_state>? It is left out"}),
+            warnings);
 }
 
 TEST(Srdf, TheSrdfOfAnotherRobotGivesAWarning)

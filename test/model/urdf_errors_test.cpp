@@ -176,12 +176,39 @@ TEST(UrdfErrors, BadShapesAreNamedWithTheirLink)
 {
   const auto link = [](const std::string& geometry)
   { return "\n<link name=\"a\">\n<collision><geometry>" + geometry + "</geometry></collision></link>"; };
-  expectUrdfError(link("<sphere radius=\"0\"/>"), "test.urdf:2: link 'a'", "radius");
+  expectUrdfError(link("<sphere radius=\"-1\"/>"), "test.urdf:2: link 'a'", "radius");
   expectUrdfError(link("<box size=\"1 -1 1\"/>"), "test.urdf:2: link 'a'", "size along y");
   expectUrdfError(link("<capsule/>"), "test.urdf:2:", "capsule");
   expectUrdfError(link("<mesh filename=\"/no/such/mesh.stl\"/>"), "test.urdf:2: link 'a'", "/no/such/mesh.stl");
   expectUrdfError(link("<mesh filename=\"mesh.stl\"/>"), "test.urdf:2: link 'a'", "relative");
   expectUrdfError(link("<mesh filename=\"package://p/mesh.stl\"/>"), "test.urdf:2: link 'a'", "package 'p'");
+}
+
+TEST(UrdfErrors, PointsAreLeftOutAndFlatShapesKeptWithAWarning)
+{
+  const auto collision = [](const std::string& shape)
+  { return "<collision><geometry>" + shape + "</geometry></collision>"; };
+  std::vector<std::string> warnings;
+  const auto robot =
+      robotOf("<link name='a'>" + collision("<cylinder length='0' radius='0'/>") + collision("<box size='0 0 0'/>") +
+                  collision("<sphere radius='0'/>") + collision("<mesh filename='none.stl' scale='0 0 0'/>") +
+                  collision("<cylinder length='0' radius='2'/>") + collision("<box size='1 0 3'/>") +
+                  collision("<sphere radius='1'/>") + "</link>",
+              "", &warnings);
+  const auto left_out = [](const std::string& shape)
+  { return "test.urdf:1: link 'a': a <" + shape + "> of size 0 is left out, because it is a point"; };
+  const auto flat = [](const std::string& shape)
+  {
+    return "test.urdf:1: link 'a': a <" + shape +
+           "> has a size of 0, so it is flat or a line; it is checked with 1e-9 m instead";
+  };
+  EXPECT_EQ((std::vector<std::string>{left_out("cylinder"), left_out("box"), left_out("sphere"), left_out("mesh"),
+                                      flat("cylinder"), flat("box")}),
+            warnings);
+  const std::vector<PlacedShape>& shapes = robot->links()[0].shapes;
+  ASSERT_EQ(3u, shapes.size());
+  EXPECT_EQ(1e-9, std::get<Cylinder>(shapes[0].shape).length);
+  EXPECT_EQ(Eigen::Vector3d(1, 1e-9, 3), std::get<Box>(shapes[1].shape).size);
 }
 
 TEST(UrdfErrors, NoCollisionElementIsLostBehindABadOne)

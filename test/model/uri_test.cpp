@@ -132,6 +132,15 @@ TEST(PackageResolver, FindsPackagesAsRosDoes)
     EXPECT_NE("", errorOf([&] { packages(name); })) << name;
 }
 
+TEST(Uri, FurtherSlashesBeforeThePackageArePassedOver)
+{
+  EXPECT_EQ("/opt/meshes/a.stl", resolveUri("package:///arm/meshes/a.stl", "", kPackages));
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("meshes/a.stl", "");
+  const PackageResolver packages = packageResolver({{"arm", folder.path("")}});
+  EXPECT_EQ(std::filesystem::canonical(mesh), resolveAllowed("package:///arm/meshes/a.stl", "", packages, {}));
+}
+
 TEST(Uri, UnresolvableUrisAreErrors)
 {
   for (const char* uri : {"", "package://", "package://arm", "package://arm/", "package:///a.stl",

@@ -52,8 +52,9 @@ class PlanningScene(Case):
         self.assert_one_line(gps.Error, "part.obj", gps.load_scene_text, text, rail(), folder="/none")
 
     def test_entries_that_are_not_used_are_warnings(self):
-        with self.assertWarnsRegex(UserWarning, "unknown key 'wurld'"):
-            gps.load_scene_text("wurld: 5\nname: x\n", rail())
+        with self.assertWarnsRegex(UserWarning, "unknown key 'comment' is not used"):
+            gps.load_scene_text("comment: 5\nname: x\n", rail())
+        self.assert_one_line(gps.Error, "did you mean 'world'", gps.load_scene_text, "wurld: 5\nname: x\n", rail())
 
     def test_each_shape_stands_where_its_pose_says(self):
         # The ball has a radius of 0.1 m. Each obstacle reaches from x = 1 - extent to x = 1 + extent.

@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 
 import gpu_planning_scene as gps
-from gpu_planning_scene.bulk.bundle import RobotBundle
+from gpu_planning_scene.bulk import RobotBundle
 from robots import ARM, EXPAND, RAIL, RAIL_SRDF, RAIL_XACRO, Case, arm, kr5, rail, xacro
 
 MESH = "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nf 1 2 3\n"
@@ -173,6 +173,25 @@ class RobotModel(Case):
             with xacro(EXPAND):
                 self.assert_one_line(gps.Error, "is xacro, which must be expanded first", gps.RobotModel.from_xml,
                                      RAIL_XACRO)
+
+    def test_xacro_finds_the_packages_of_the_call(self):
+        find = "for f in $(echo $ROS_PACKAGE_PATH | tr ':' ' '); do cat $f/rail.xml 2> /dev/null; done"
+        with tempfile.TemporaryDirectory() as folder:
+            urdf = pathlib.Path(folder, "rail.urdf.xacro")
+            urdf.write_text(RAIL_XACRO, encoding="utf-8")
+            pathlib.Path(folder, "rail.xml").write_text(RAIL, encoding="utf-8")
+            with xacro(find), contextlib.redirect_stderr(io.StringIO()):
+                robot = gps.RobotModel.from_files(urdf, packages={"my_rail": folder})
+        self.assertEqual("rail", robot.name)
+
+    def test_a_file_in_iso_8859_1_is_read(self):
+        for declaration in ("", '<?xml version="1.0" encoding="ISO-8859-1"?>'):
+            with tempfile.TemporaryDirectory() as folder:
+                urdf = pathlib.Path(folder, "rail.urdf")
+                urdf.write_bytes((declaration + RAIL.replace("ball", "Kugel für é")).encode("latin-1"))
+                robot = gps.RobotModel.from_files(urdf)
+                self.assertEqual("Kugel für é", robot.links[1].name)
+                self.assertEqual("Kugel für é", RobotBundle.from_files(urdf).load().links[1].name)
 
     def test_a_named_state_has_poses_if_it_sets_all_variables(self):
         robot = arm()

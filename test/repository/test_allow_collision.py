@@ -43,6 +43,13 @@ class AllowCollision(unittest.TestCase):
         self.set_entry("cable", "hand", True)
         self.assertFalse(self.entry("cable", "cloud"), "each of the two must allow it")
 
+    def test_a_star_sets_the_default_of_the_other_body(self):
+        allow_collision.set_default(self.matrix, "floor", True)
+        allow_collision.set_default(self.matrix, "cable", True)
+        self.assertEqual(self.matrix.default_entry_names, ["cloud", "cable", "floor"])
+        self.assertEqual(self.matrix.default_entry_values, [True, True, True])
+        self.assertEqual(self.matrix.entry_names, ["base", "hand"])
+
 
 if __name__ == "__main__":
     unittest.main()

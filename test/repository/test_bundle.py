@@ -11,6 +11,8 @@ import unittest
 
 from folders import SCRIPTS
 
+PROGRAMS = ("benchmark", "check_states", "generate_acm", "exactness", "literature", "planning_study", "stability")
+
 
 class BundleTest(unittest.TestCase):
     @classmethod
@@ -129,6 +131,39 @@ class BundleTest(unittest.TestCase):
         result = self.run_program("benchmrak")
         self.assertEqual(result.returncode, 2)
         self.assertIn("benchmark", result.stderr)
+
+
+class BundleWithoutABuildTest(unittest.TestCase):
+    """scripts/bundle DIR builds the programs first. Here cmake is a stand-in whose programs are copies of `true`."""
+
+    def test_builds_all_programs(self):
+        folder = pathlib.Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, folder)
+        repository = folder / "repository"
+        for part in ("scripts", "shaders", "config"):
+            shutil.copytree(SCRIPTS.parent / part, repository / part)
+        shutil.copy(SCRIPTS.parent / "LICENSE", repository)
+        (repository / "scripts/install_dependencies").write_text("#!/bin/sh\n")
+        calls = folder / "calls"
+        # An exported function of bash, because the script puts the system's programs before those of the caller's PATH.
+        stand_in = f"""() {{
+          [[ "$1" != -P ]] || {{ command cmake "$@"; return; }}
+          echo "$*" >> '{calls}'
+          [[ "$*" != *--target* ]] || {{ echo 'unknown target'; return 1; }}
+          [[ "$1" != --build ]] || for name in {" ".join(PROGRAMS)}; do cp /usr/bin/true "$2/$name"; done
+        }}"""
+        result = subprocess.run(
+            [repository / "scripts/bundle", "--robots", folder, folder / "bundle"],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            env={**os.environ, "BASH_FUNC_cmake%%": stand_in},
+        )
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        configured, built = calls.read_text().splitlines()
+        self.assertIn("-DCMAKE_BUILD_TYPE=Release", configured)
+        self.assertEqual(built, f"--build {repository}/build/bundle")
+        self.assertEqual(sorted(os.listdir(folder / "bundle/bin")), sorted(PROGRAMS))
 
 
 class ReportTest(unittest.TestCase):

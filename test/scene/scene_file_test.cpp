@@ -217,6 +217,46 @@ TEST_F(SceneFile, AllowedCollisionsWithAnUnknownNameAreWarnings)
   EXPECT_TRUE(scene.allowed_collisions.allowed("can", "cart"));
 }
 
+TEST_F(SceneFile, AStarAllowsTheCollisionsOfABodyWithAllOthers)
+{
+  for (const std::string pair : {"[floor, \"*\"]", "[\"*\", floor]"})
+  {
+    const PlanningScene scene =
+        load("world: {collision_objects: [{id: floor, planes: [[0, 0, 1, 0]]}]}\nallowed_collisions: [" + pair + "]\n");
+    EXPECT_TRUE(warnings.empty()) << warnings[0];
+    EXPECT_EQ(true, scene.allowed_collisions.defaultOf("floor"));
+    EXPECT_TRUE(scene.allowed_collisions.allowed("floor", "cart"));
+    EXPECT_TRUE(scene.allowed_collisions.allowed("floor", "an object of later"));
+    EXPECT_FALSE(scene.allowed_collisions.allowed("cart", "an object of later"));
+    EXPECT_EQ(MatrixSource::SceneFile, scene.matrix_source);
+  }
+}
+
+TEST_F(SceneFile, PairsThatAreForbiddenInSpiteOfAStarAreNamed)
+{
+  const PlanningScene scene = load(R"(world: {collision_objects: [{id: floor, planes: [[0, 0, 1, 0]]}]}
+allowed_collision_matrix:
+  entry_names: [floor, cart]
+  entry_values: [[false, false], [false, false]]
+  default_entry_names: [pole]
+  default_entry_values: [false]
+allowed_collisions: [[floor, "*"]])");
+  EXPECT_FALSE(scene.allowed_collisions.allowed("floor", "cart"));
+  EXPECT_TRUE(scene.allowed_collisions.allowed("floor", "nut"));
+  ASSERT_EQ(1u, warnings.size());
+  EXPECT_TRUE(
+      warned("scene.yaml:7: allowed_collisions: [floor, \"*\"] does not allow the pairs that other entries "
+             "forbid; these stay checked: floor with cart, pole"))
+      << warnings[0];
+}
+
+TEST_F(SceneFile, OnlyAWholeNameCanBeAStar)
+{
+  const std::string world = "world: {}\nallowed_collisions: ";
+  EXPECT_NE(std::string::npos, errorOf([&] { load(world + "[[cart, \"fl*\"]]"); }).find("'fl*' is no body"));
+  EXPECT_NE(std::string::npos, errorOf([&] { load(world + "[[\"*\", \"*\"]]"); }).find("a name and \"*\""));
+}
+
 TEST_F(SceneFile, AMatrixOfDefaultsAloneIsAWarning)
 {
   const PlanningScene scene =
@@ -225,37 +265,6 @@ TEST_F(SceneFile, AMatrixOfDefaultsAloneIsAWarning)
   EXPECT_TRUE(warned("scene.yaml:3: allowed_collision_matrix: it has only default entries, so the pairs that the SRDF"))
       << warnings[0];
   EXPECT_FALSE(scene.allowed_collisions.allowed("cart", "pole"));
-}
-
-TEST_F(SceneFile, UnknownKeysAreNamedWithTheLineOfTheKey)
-{
-  load("world:\n  collision_objects: []\nwrold:\n  collision_objects:\n    - {}\n");
-  ASSERT_EQ(1u, warnings.size());
-  EXPECT_TRUE(warned("scene.yaml:3: unknown key 'wrold'")) << warnings.at(0);
-}
-
-TEST_F(SceneFile, AnUnknownKeyNamesTheKnownKeyThatIsSimilar)
-{
-  const std::map<std::string, std::string> objects = {{"primitivs", "primitives"},
-                                                      {"Primitives", "primitives"},
-                                                      {"mehses", "meshes"},
-                                                      {"subframe_name", "subframe_names"},
-                                                      {"primitive_pose", "primitive_poses"},
-                                                      {"mesh_posses", "mesh_poses"},
-                                                      {"colour", ""},
-                                                      {"frame", ""}};
-  for (const auto& [key, meant] : objects)
-  {
-    load("world: {collision_objects: [{id: a, " + key + ": 0, primitives: [{type: sphere, dimensions: [1]}]}]}");
-    EXPECT_TRUE(warned(meant.empty() ? "unknown key '" + key + "' is not used"
-                                     : "unknown key '" + key + "' is not used; did you mean '" + meant + "'?"))
-        << warnings.at(0);
-    EXPECT_EQ(meant.empty(), warnings.at(0).find("did you mean") == std::string::npos) << warnings.at(0);
-  }
-  load("wrold: {}\nworld: {}");
-  EXPECT_TRUE(warned("scene.yaml:1: unknown key 'wrold' is not used; did you mean 'world'?"));
-  load("world: {}\n" + std::string(500, 'w') + ": 1");
-  EXPECT_FALSE(warned("did you mean"));
 }
 
 TEST_F(SceneFile, AnUnreadableFileAndAnEmptyFileHaveDifferentMessages)
@@ -671,12 +680,8 @@ TEST_F(SceneFile, AliasesStandForTheirValue)
   EXPECT_EQ(2.0, std::get<Sphere>(scene.objects[1].shapes[0].shape).radius);
 }
 
-TEST_F(SceneFile, UnknownKeysGiveWarnings)
+TEST_F(SceneFile, TheNameOfAnotherRobotIsAWarning)
 {
-  load("wrold: {}\nworld: {collision_objects: [{id: a, colour: red, primitives: [{type: sphere, dimensions: [1]}]}]}");
-  EXPECT_TRUE(warned("scene.yaml:1: unknown key 'wrold'"));
-  EXPECT_TRUE(warned("scene.yaml:2: unknown key 'colour'"));
-  EXPECT_FALSE(warned("did you mean 'id'"));
   load("robot_model_name: other\n");
   EXPECT_TRUE(warned("for robot 'other', the robot is 'slider'"));
 }

@@ -142,6 +142,22 @@ TEST_F(CheckStates, FewStatesHaveNoRate)
   EXPECT_NE(std::string::npos, linesOf(check({"--random", "100"}).err).back().find(" states/s, "));
 }
 
+TEST_F(CheckStates, ManyAnswersAreNotPrintedToATerminal)
+{
+  const auto on_terminal = [this](const std::string& count)
+  {
+    return runOnTerminal(GPS_CHECK_STATES,
+                         {"--urdf", urdf, "--srdf", srdf, "--scene", scene, "--device", "cpu", "--random", count});
+  };
+  const ProgramOutput many = on_terminal("31");
+  EXPECT_EQ(0, many.exit_code) << many.err;
+  EXPECT_EQ("", many.out);
+  EXPECT_NE(std::string::npos, many.err.find("answers: 31 rows, not printed to the terminal; give --out FILE"))
+      << many.err;
+  EXPECT_EQ("31 states", linesOf(many.err).back().substr(0, 9));
+  EXPECT_EQ(31u, linesOf(on_terminal("30").out).size());
+}
+
 TEST_F(CheckStates, TheLastLineOfTheSummaryIsAsPromised)
 {
   const ProgramOutput output = check({"--random", "3000", "--seed", "7", "--max-batch", "999"});

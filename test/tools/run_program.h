@@ -16,5 +16,8 @@ struct ProgramOutput
 /// it. Throws std::runtime_error if no process can be created.
 ProgramOutput runProgram(const std::string& path, const std::vector<std::string>& arguments);
 
+/// The same, with a terminal as the standard output.
+ProgramOutput runOnTerminal(const std::string& path, const std::vector<std::string>& arguments);
+
 std::vector<std::string> linesOf(const std::string& text);
 }  // namespace gpu_planning_scene::core

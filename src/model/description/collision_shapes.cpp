@@ -3,6 +3,7 @@
 #include <urdf_model/link.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/zero_size.h"
 
 namespace gpu_planning_scene::core
 {
@@ -33,6 +34,30 @@ Shape toShape(const urdf::Geometry& geometry, const RobotModelOptions& options, 
   }
   throw Error("a collision element has an unknown geometry type");
 }
+
+/// The name of a shape's element in the URDF.
+const char* nameOf(const urdf::Geometry& geometry)
+{
+  switch (geometry.type)
+  {
+    case urdf::Geometry::BOX:
+      return "box";
+    case urdf::Geometry::SPHERE:
+      return "sphere";
+    case urdf::Geometry::CYLINDER:
+      return "cylinder";
+    default:
+      return "mesh";
+  }
+}
+
+bool isMeshOfSizeZero(const urdf::Geometry& geometry)
+{
+  if (geometry.type != urdf::Geometry::MESH)
+    return false;
+  const urdf::Vector3& scale = static_cast<const urdf::Mesh&>(geometry).scale;
+  return scale.x == 0.0 && scale.y == 0.0 && scale.z == 0.0;
+}
 }  // namespace
 
 Eigen::Isometry3d toIsometry(const urdf::Pose& pose, const std::string& where)
@@ -47,22 +72,36 @@ Eigen::Isometry3d toIsometry(const urdf::Pose& pose, const std::string& where)
 }
 
 std::vector<PlacedShape> collisionShapes(const urdf::Link& link, const std::string& where,
-                                         const RobotModelOptions& options, MeshCache& meshes)
+                                         const RobotModelOptions& options, MeshCache& meshes,
+                                         std::vector<std::string>& warnings)
 {
   std::vector<PlacedShape> shapes;
   for (const urdf::CollisionSharedPtr& collision : link.collision_array)
   {
     const std::string element = where + ": link '" + link.name + "'";
-    try
+    const std::string shape = element + ": a <" + nameOf(*collision->geometry) + ">";
+    ZeroSize size = isMeshOfSizeZero(*collision->geometry) ? ZeroSize::Point : ZeroSize::None;
+    if (size == ZeroSize::None)
     {
-      shapes.push_back(
-          {toShape(*collision->geometry, options, meshes), toIsometry(collision->origin, "its <collision>")});
+      try
+      {
+        shapes.push_back(
+            {toShape(*collision->geometry, options, meshes), toIsometry(collision->origin, "its <collision>")});
+      }
+      catch (const Error& error)
+      {
+        throw Error(element + ": " + error.what());
+      }
+      size = thicken(shapes.back().shape);
+      if (size == ZeroSize::Point)
+        shapes.pop_back();
+      else
+        validateShape(shapes.back().shape, element);
     }
-    catch (const Error& error)
-    {
-      throw Error(element + ": " + error.what());
-    }
-    validateShape(shapes.back().shape, element);
+    if (size == ZeroSize::Point)
+      warnings.push_back(shape + " of size 0 is left out, because it is a point");
+    else if (size == ZeroSize::Flat)
+      warnings.push_back(shape + " has a size of 0, so it is flat or a line; it is checked with 1e-9 m instead");
   }
   return shapes;
 }

@@ -22,7 +22,9 @@ namespace gpu_planning_scene::core
 Eigen::Isometry3d toIsometry(const urdf::Pose& pose, const std::string& where);
 
 /// The shapes of a link's collision elements, with poses in the link's frame. `where`: place of the link in the URDF,
-/// for messages. Throws Error.
+/// for messages. A shape of size 0, which is a point, is left out. A flat primitive gets a thickness, see thicken().
+/// Both get a line in `warnings`. Throws Error.
 std::vector<PlacedShape> collisionShapes(const urdf::Link& link, const std::string& where,
-                                         const RobotModelOptions& options, MeshCache& meshes);
+                                         const RobotModelOptions& options, MeshCache& meshes,
+                                         std::vector<std::string>& warnings);
 }  // namespace gpu_planning_scene::core

@@ -6,15 +6,19 @@
 #include <iterator>
 #include <sstream>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/description/xacro_packages.h"
 #include "model/description/xml.h"
 #include "model/description/xml_kind.h"
 #include "model/files/child_process.h"
 #include "model/text/one_line.h"
+#include "model/text/utf8.h"
 
 namespace gpu_planning_scene::core
 {
@@ -32,7 +36,7 @@ std::string readFile(const std::string& path, const std::string& kind)
   std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   if (text.empty())
     throw Error(kind + " '" + path + "' is empty");
-  return text;
+  return xmlInUtf8(std::move(text));
 }
 
 /// Whether xacro must expand a text. Returns false for malformed XML: RobotModel reports the fault.
@@ -66,14 +70,21 @@ std::string programOnPath(const std::string& name)
 }
 
 std::string expanded(const std::string& program, const std::string& path, const std::string& kind,
+                     const std::map<std::string, std::string>& folders,
                      const std::function<void(const std::string& line)>& info, double seconds)
 {
   const std::string start = kind + " '" + path + "' is a xacro file: ";
   const std::string advice = "; expand it by hand, and give the result: xacro FILE [NAME:=VALUE] > expanded." +
                              std::string(kind == "SRDF" ? "srdf" : "urdf");
-  // A path that begins with a hyphen would be an option.
-  const ChildAnswer answer = runChild("xacro", {program, path.front() == '-' ? "./" + path : path},
-                                      {seconds, kMaxDescriptionBytes, kMaxXacroMessageBytes});
+  const XacroPackages packages(folders);
+  std::vector<std::string> command;
+  if (!folders.empty())
+    command = {"/usr/bin/env", "ROS_PACKAGE_PATH=" + packages.searchPath()};
+  command.push_back(program);
+  command.push_back(path.front() == '-' ? "./" + path : path);  // a hyphen would begin an option
+  ChildAnswer answer = runChild("xacro", command, {seconds, kMaxDescriptionBytes, kMaxXacroMessageBytes});
+  answer.out = packages.withGivenFolders(std::move(answer.out));
+  answer.err = packages.withGivenFolders(std::move(answer.err));
   if (answer.late)
   {
     std::ostringstream limit;
@@ -103,6 +114,7 @@ std::string expanded(const std::string& program, const std::string& path, const 
 }  // namespace
 
 DescriptionText readDescription(const std::string& path, const std::string& kind,
+                                const std::map<std::string, std::string>& packages,
                                 const std::function<void(const std::string& line)>& info, double xacro_seconds)
 {
   DescriptionText description{path, readFile(path, kind)};
@@ -111,18 +123,19 @@ DescriptionText readDescription(const std::string& path, const std::string& kind
   const std::string program = programOnPath("xacro");
   if (program.empty())
     return description;
-  return {"xacro " + path, expanded(program, path, kind, info, xacro_seconds)};
+  return {"xacro " + path, xmlInUtf8(expanded(program, path, kind, packages, info, xacro_seconds))};
 }
 
 RobotDescription readRobotDescription(const std::string& urdf_path, const std::string& srdf_path,
+                                      const std::map<std::string, std::string>& packages,
                                       const std::function<void(const std::string& line)>& info)
 {
   RobotDescription description;
   const std::filesystem::path folder = std::filesystem::path(urdf_path).parent_path();
   description.urdf_folder = folder.empty() ? "." : folder.string();
   if (!srdf_path.empty())
-    description.srdf = readDescription(srdf_path, "SRDF", info);
-  description.urdf = readDescription(urdf_path, "URDF", info);
+    description.srdf = readDescription(srdf_path, "SRDF", packages, info);
+  description.urdf = readDescription(urdf_path, "URDF", packages, info);
   return description;
 }
 }  // namespace gpu_planning_scene::core

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "gpu_planning_scene/error.h"
-
 namespace gpu_planning_scene::core
 {
 namespace
@@ -26,6 +24,7 @@ class GroupResolver
 
   std::vector<Group> resolve()
   {
+    leaveOutIncompleteGroups();
     std::vector<Group> result;
     for (const SrdfGroup* group : order_)
     {
@@ -38,11 +37,39 @@ class GroupResolver
   }
 
  private:
+  /// Removes the groups with subgroups that do not exist, with subgroups that are removed themselves, and in circles.
+  void leaveOutIncompleteGroups()
+  {
+    std::set<std::string> complete;
+    const auto missing = [&](const SrdfGroup& group)
+    {
+      return std::find_if(group.subgroups.begin(), group.subgroups.end(),
+                          [&](const SrdfName& subgroup) { return complete.count(subgroup.name) == 0; });
+    };
+    for (bool grows = true; grows;)
+    {
+      grows = false;
+      for (const SrdfGroup* group : order_)
+        if (missing(*group) == group->subgroups.end())
+          grows |= complete.insert(group->name).second;
+    }
+    for (const SrdfGroup* group : order_)
+      if (const auto subgroup = missing(*group); subgroup != group->subgroups.end())
+        warnings_.push_back(
+            subgroup->where + ": group '" + group->name + "' is left out: its subgroup '" + subgroup->name +
+            (by_name_.count(subgroup->name) == 0 ? "' does not exist" : "' is left out too, or contains this group"));
+    order_.erase(std::remove_if(order_.begin(), order_.end(),
+                                [&](const SrdfGroup* group) { return complete.count(group->name) == 0; }),
+                 order_.end());
+  }
+
+  /// -1, with a warning, if the robot does not have the link.
   int linkIndex(const std::string& link, const std::string& where, const std::string& group) const
   {
     const int index = robot_.linkIndex(link);
     if (index < 0)
-      throw Error(where + ": group '" + group + "' names link '" + link + "', which the robot does not have");
+      warnings_.push_back(where + ": group '" + group + "' names link '" + link +
+                          "', which the robot does not have; the entry is left out");
     return index;
   }
 
@@ -52,7 +79,6 @@ class GroupResolver
     std::set<int>& joints = position->second;
     if (!is_new)
       return joints;
-    open_.insert(group.name);
     for (const SrdfName& joint : group.joints)
       addJoint(joint, group.name, joints);
     for (const SrdfName& link : group.links)
@@ -61,18 +87,9 @@ class GroupResolver
       addChain(chain, group.name, joints);
     for (const SrdfName& subgroup : group.subgroups)
     {
-      const auto found = by_name_.find(subgroup.name);
-      if (found == by_name_.end())
-      {
-        throw Error(subgroup.where + ": group '" + group.name + "' has subgroup '" + subgroup.name +
-                    "', which does not exist");
-      }
-      if (open_.count(subgroup.name) != 0)
-        throw Error(subgroup.where + ": group '" + subgroup.name + "' contains itself, directly or through subgroups");
-      const std::set<int>& added = jointsOf(*found->second);
+      const std::set<int>& added = jointsOf(*by_name_.at(subgroup.name));
       joints.insert(added.begin(), added.end());
     }
-    open_.erase(group.name);
     return joints;
   }
 
@@ -90,14 +107,14 @@ class GroupResolver
     }
     else
     {
-      throw Error(joint.where + ": group '" + group + "' names joint '" + joint.name +
-                  "', which the robot does not have");
+      warnings_.push_back(joint.where + ": group '" + group + "' names joint '" + joint.name +
+                          "', which the robot does not have; the entry is left out");
     }
   }
 
   void addParentJoint(int link, std::set<int>& joints) const
   {
-    if (robot_.links()[link].parent_joint >= 0)
+    if (link >= 0 && robot_.links()[link].parent_joint >= 0)
       joints.insert(robot_.links()[link].parent_joint);
   }
 
@@ -119,9 +136,12 @@ class GroupResolver
   // joint is then added too.
   void addChain(const SrdfChain& chain, const std::string& group, std::set<int>& joints) const
   {
-    const std::vector<int> from_base = pathToRoot(linkIndex(chain.base_link, chain.where, group));
-    const std::vector<int> from_tip = pathToRoot(linkIndex(chain.tip_link, chain.where, group));
-    const int base = from_base.front();
+    const int base = linkIndex(chain.base_link, chain.where, group);
+    const int tip = linkIndex(chain.tip_link, chain.where, group);
+    if (base < 0 || tip < 0)
+      return;
+    const std::vector<int> from_base = pathToRoot(base);
+    const std::vector<int> from_tip = pathToRoot(tip);
     if (std::find(from_tip.begin(), from_tip.end(), base) != from_tip.end())
     {
       for (auto link = from_tip.begin(); *link != base; ++link)
@@ -172,7 +192,6 @@ class GroupResolver
   std::map<std::string, const SrdfGroup*> by_name_;
   std::vector<const SrdfGroup*> order_;
   std::map<std::string, std::set<int>> joints_;
-  std::set<std::string> open_;  // groups that are being resolved
 };
 }  // namespace
 

@@ -14,6 +14,7 @@
 #include "model/description/urdf_reader.h"
 #include "model/kinematics.h"
 #include "model/text/one_line.h"
+#include "model/text/utf8.h"
 
 namespace gpu_planning_scene::core
 {
@@ -28,7 +29,7 @@ class RobotModelBuilder
     const UrdfText urdf(urdf_text, options_.urdf_name);
     warnings_ = urdf.warnings;
     const bool has_srdf = !srdf_text.empty();
-    const Srdf srdf = has_srdf ? readSrdf(srdf_text, options_.srdf_name) : Srdf();
+    const Srdf srdf = has_srdf ? readSrdf(srdf_text, options_.srdf_name, warnings_) : Srdf();
 
     const std::string root = urdf.model->getRoot()->name;
     const SrdfVirtualJoint* virtual_joint = findVirtualJoint(srdf, root);
@@ -163,7 +164,7 @@ std::shared_ptr<const RobotModel> RobotModel::fromXml(const std::string& urdf, c
   std::shared_ptr<const RobotModel> model;
   try
   {
-    model = builder.build(urdf, srdf);
+    model = builder.build(xmlInUtf8(urdf), xmlInUtf8(srdf));
   }
   catch (const Error& error)
   {
@@ -177,7 +178,7 @@ std::shared_ptr<const RobotModel> RobotModel::fromXml(const std::string& urdf, c
 std::shared_ptr<const RobotModel> RobotModel::fromFiles(const std::string& urdf_path, const std::string& srdf_path,
                                                         RobotModelOptions options, std::vector<std::string>* warnings)
 {
-  const RobotDescription files = readRobotDescription(urdf_path, srdf_path, options.info);
+  const RobotDescription files = readRobotDescription(urdf_path, srdf_path, options.package_folders, options.info);
   options.urdf_folder = files.urdf_folder;
   options.urdf_name = files.urdf.name;
   options.srdf_name = files.srdf.name;

@@ -69,7 +69,9 @@ struct Srdf
   std::vector<SrdfName> disabled_by_default;
 };
 
-/// Reads an SRDF. Throws Error with `name` and line for malformed XML, a missing attribute, or an unknown type of
-/// virtual joint.
-Srdf readSrdf(const std::string& text, const std::string& name);
+/// Reads an SRDF. As in MoveIt, an element that lacks an attribute is left out, and gets a line in `warnings`. Throws
+/// Error with `name` and line for malformed XML, and for faults after which the robot would stand elsewhere or fewer
+/// pairs would be checked than the file says: an incomplete <virtual_joint> or <enable_collisions>, a virtual joint of
+/// an unknown type, and misspelt elements that mean these or the content of a group.
+Srdf readSrdf(const std::string& text, const std::string& name, std::vector<std::string>& warnings);
 }  // namespace gpu_planning_scene::core

@@ -65,7 +65,7 @@ class TreeBuilder
     Link result;
     result.name = link.name;
     result.parent_joint = static_cast<int>(tree_.joints.size()) - 1;
-    result.shapes = collisionShapes(link, where, options_, meshes_);
+    result.shapes = collisionShapes(link, where, options_, meshes_, warnings_);
     if (result.shapes.empty() && urdf_.xml.hasChild("link", link.name, "visual"))
     {
       warnings_.push_back(where + ": link '" + link.name +

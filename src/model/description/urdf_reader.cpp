@@ -10,6 +10,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/description/urdf_names.h"
 #include "model/description/xml_kind.h"
 
 namespace gpu_planning_scene::core
@@ -165,6 +166,7 @@ void requireAllCollisionElements(const XmlText& xml, const urdf::ModelInterface&
 UrdfText::UrdfText(const std::string& text, const std::string& name) : xml(text, name, "robot")
 {
   requireUrdf(xml, warnings);
+  checkUrdfNames(xml, warnings);
   requireTree(xml);
   LogCapture log;
   try

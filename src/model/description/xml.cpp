@@ -6,6 +6,7 @@
 #include <tinyxml2.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/text/nearest_key.h"
 
 namespace gpu_planning_scene::core
 {
@@ -70,5 +71,10 @@ std::string XmlText::attribute(const tinyxml2::XMLElement& element, const char* 
   if (value == nullptr)
     throw Error(where(element) + ": <" + element.Name() + "> lacks the attribute '" + attribute + "'");
   return value;
+}
+
+std::string meantName(const std::string& name, const std::vector<std::string>& known)
+{
+  return name.find(':') == std::string::npos ? nearestSpelling(name, known) : "";
 }
 }  // namespace gpu_planning_scene::core

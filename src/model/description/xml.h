@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace tinyxml2
 {
@@ -37,4 +38,8 @@ class XmlText
   std::shared_ptr<tinyxml2::XMLDocument> document_;
   const tinyxml2::XMLElement* root_;
 };
+
+/// The name of `known` that a misspelt element or attribute means: it differs in upper case, hyphens or underscores, or
+/// by few typing errors. Empty if there is none, and for names with a prefix, such as drake:capsule.
+std::string meantName(const std::string& name, const std::vector<std::string>& known);
 }  // namespace gpu_planning_scene::core

@@ -47,7 +47,8 @@ std::string listOf(const std::vector<std::string>& roots)
 /// The folder of the package that a URI names. resolveUri has checked the URI already.
 std::string packageFolder(const std::string& uri, const PackageResolver& packages)
 {
-  const std::string probe = resolveUri(uri.substr(0, uri.find('/', kPackage.size())) + "/x", "", packages);
+  const std::size_t name = uri.find_first_not_of('/', kPackage.size());
+  const std::string probe = resolveUri(uri.substr(0, uri.find('/', name)) + "/x", "", packages);
   return fs::path(probe).parent_path().string();
 }
 }  // namespace

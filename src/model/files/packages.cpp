@@ -12,6 +12,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/resources.h"
+#include "model/files/package_path.h"
 #include "model/text/name_list.h"
 
 // Finds ROS packages as rospack does, without ROS.
@@ -113,12 +114,6 @@ class PackagePath
   std::mutex mutex_;
 };
 
-std::string packagePath()
-{
-  const char* path = std::getenv("ROS_PACKAGE_PATH");
-  return path != nullptr ? path : "/usr/share";  // the default of Debian's rospack
-}
-
 /// The names of the given packages, so that the user notices a misspelt name.
 std::string givenNames(const std::map<std::string, std::string>& folders)
 {
@@ -129,17 +124,27 @@ std::string givenNames(const std::map<std::string, std::string>& folders)
 }
 }  // namespace
 
+std::string packagePathVariable()
+{
+  const char* path = std::getenv("ROS_PACKAGE_PATH");
+  return path != nullptr ? path : "/usr/share";
+}
+
+void requirePackageFolder(const std::string& folder, const std::string& package)
+{
+  if (std::error_code error; !fs::is_directory(folder, error))
+    throw Error("the folder '" + folder + "' does not exist; check the folder given for package '" + package + "'");
+}
+
 PackageResolver packageResolver(std::map<std::string, std::string> folders, std::string remedy)
 {
   return [folders = std::move(folders), remedy = std::move(remedy),
-          path = std::make_shared<PackagePath>(packagePath())](const std::string& package)
+          path = std::make_shared<PackagePath>(packagePathVariable())](const std::string& package)
   {
     const auto given = folders.find(package);
     if (given != folders.end())
     {
-      if (std::error_code error; !fs::is_directory(given->second, error))
-        throw Error("the folder '" + given->second + "' does not exist; check the folder given for package '" +
-                    package + "'");
+      requirePackageFolder(given->second, package);
       return given->second;
     }
     std::string folder = path->find(package);

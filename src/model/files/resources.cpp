@@ -54,10 +54,12 @@ std::string folderOf(const std::string& package, const std::string& uri, const P
   return folder;
 }
 
-/// The package name ends at the first slash of the URI, as in ROS. So a decoded name must not contain a slash.
+/// The package name ends at the first slash of the URI, as in ROS. So a decoded name must not contain a slash. Some
+/// published URDFs have package:///NAME/PATH. No package has an empty name, so the further slashes are passed over.
 std::string resolvePackageUri(const std::string& uri, const PackageResolver& packages)
 {
-  const std::string rest = uri.substr(std::string("package://").size());
+  const std::size_t name = uri.find_first_not_of('/', std::string("package://").size());
+  const std::string rest = name == std::string::npos ? "" : uri.substr(name);
   const std::size_t slash = rest.find('/');
   const std::string package = decodePercents(rest.substr(0, slash), uri);
   const fs::path inside = slash == std::string::npos

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -12,5 +13,10 @@ inline std::string nameList(const std::vector<std::string>& names)
   for (const std::string& name : names)
     list += (list.empty() ? "" : ", ") + name;
   return list;
+}
+
+inline bool contains(const std::vector<std::string>& names, const std::string& name)
+{
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 }  // namespace gpu_planning_scene::core

@@ -1,6 +1,7 @@
 #include "model/text/nearest_key.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 
 // The known word with the least optimal string alignment distance: the smallest number of insertions, deletions,
@@ -54,6 +55,25 @@ std::string nearestKey(const std::string& word, const std::vector<std::string>& 
     }
   }
   return nearest;
+}
+
+std::string plainKey(const std::string& key)
+{
+  std::string result;
+  for (const char c : key)
+    if (std::isalnum(static_cast<unsigned char>(c)))
+      result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return result;
+}
+
+std::string nearestSpelling(const std::string& word, const std::vector<std::string>& known)
+{
+  std::vector<std::string> plain_keys;
+  for (const std::string& key : known)
+    plain_keys.push_back(plainKey(key));
+  const std::string nearest = nearestKey(plainKey(word), plain_keys);
+  const auto found = std::find(plain_keys.begin(), plain_keys.end(), nearest);
+  return found == plain_keys.end() ? "" : known[static_cast<std::size_t>(found - plain_keys.begin())];
 }
 
 std::string didYouMean(const std::string& word, const std::vector<std::string>& known)

@@ -9,6 +9,12 @@ namespace gpu_planning_scene::core
 /// few, another one, or two letters swapped), and at most one error for each three letters. Empty if no name is near.
 std::string nearestKey(const std::string& word, const std::vector<std::string>& known);
 
+/// The letters and digits of a key in lower case: collisionObjects, Collision-Objects and collision_objects agree.
+std::string plainKey(const std::string& key);
+
+/// The nearest name of `known` as nearestKey finds it, where only the plain keys are compared.
+std::string nearestSpelling(const std::string& word, const std::vector<std::string>& known);
+
 /// "; did you mean 'NAME'?" with the nearest name of `known`; empty if no name is near.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& known);
 }  // namespace gpu_planning_scene::core

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 #include "scene/missing_link.h"
 
@@ -8,9 +9,9 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// Reads the list `key` of values by link. Links that it does not name have their default. Empty if all values are
-/// `usual`.
-std::vector<double> readLinkValues(const YamlValue& scene, const SceneReader& reader, const char* key,
+/// Reads the list `key` of values by link. `kind`: its items. Links that it does not name have their default. Empty if
+/// all values are `usual`.
+std::vector<double> readLinkValues(const YamlValue& scene, const SceneReader& reader, const char* key, SceneMap kind,
                                    const std::string& member, const std::vector<double>& defaults, double usual)
 {
   const YamlValue* list = scene.find(key);
@@ -21,7 +22,7 @@ std::vector<double> readLinkValues(const YamlValue& scene, const SceneReader& re
   std::vector<bool> given(values.size(), false);
   for (const YamlValue& item : list->items())
   {
-    item.warnOfUnknownKeys({"link_name", member.c_str()}, reader.warnings);
+    checkKeys(item, kind, reader.warnings);
     const YamlValue& name = item.at("link_name");
     const YamlValue& value = item.at(member);
     const double number = value.number();
@@ -46,12 +47,13 @@ std::vector<double> readLinkValues(const YamlValue& scene, const SceneReader& re
 
 std::vector<double> readLinkPadding(const YamlValue& scene, const SceneReader& reader)
 {
-  return readLinkValues(scene, reader, "link_padding", "padding", reader.defaults.link_padding, 0.0);
+  return readLinkValues(scene, reader, "link_padding", SceneMap::LinkPadding, "padding", reader.defaults.link_padding,
+                        0.0);
 }
 
 std::vector<double> readLinkScale(const YamlValue& scene, const SceneReader& reader)
 {
-  return readLinkValues(scene, reader, "link_scale", "scale", reader.defaults.link_scale, 1.0);
+  return readLinkValues(scene, reader, "link_scale", SceneMap::LinkScale, "scale", reader.defaults.link_scale, 1.0);
 }
 
 std::map<std::string, Color> readColors(const YamlValue& scene, const SceneReader& reader)
@@ -62,8 +64,9 @@ std::map<std::string, Color> readColors(const YamlValue& scene, const SceneReade
     return colors;
   for (const YamlValue& item : list->items())
   {
-    item.warnOfUnknownKeys({"id", "color"}, reader.warnings);
+    checkKeys(item, SceneMap::ObjectColor, reader.warnings);
     const YamlValue& value = item.at("color");
+    checkKeys(value, SceneMap::Color, reader.warnings);
     const auto part = [&value](const char* key)
     {
       const double number = value.at(key).number();

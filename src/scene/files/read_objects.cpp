@@ -3,6 +3,7 @@
 #include <set>
 
 #include "gpu_planning_scene/octomap.h"
+#include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 #include "scene/missing_link.h"
 #include "scene/validate_scene.h"
@@ -46,7 +47,7 @@ std::map<std::string, Eigen::Isometry3d> readSubframes(const YamlValue& object)
 
 ObjectType readObjectType(const YamlValue& value, const SceneReader& reader)
 {
-  value.warnOfUnknownKeys({"key", "db"}, reader.warnings);
+  checkKeys(value, SceneMap::ObjectType, reader.warnings);
   ObjectType type;
   if (const YamlValue* key = value.find("key"))
     type.key = key->text();
@@ -58,10 +59,7 @@ ObjectType readObjectType(const YamlValue& value, const SceneReader& reader)
 /// Reads an object. Its pose is in the frame that its header names.
 WorldObject readObject(const YamlValue& value, SceneReader& reader)
 {
-  const std::initializer_list<const char*> keys = {
-      "header",     "pose",   "id",          "type",           "primitives",     "primitive_poses", "meshes",
-      "mesh_poses", "planes", "plane_poses", "subframe_names", "subframe_poses", "operation"};
-  value.warnOfUnknownKeys(keys, reader.warnings);
+  checkKeys(value, SceneMap::Object, reader.warnings);
   requireAdd(value);
   WorldObject object;
   object.id = value.at("id").text();
@@ -71,8 +69,11 @@ WorldObject readObject(const YamlValue& value, SceneReader& reader)
     value.fail("the id '" + object.id + "' is kept for the octomap; give it as world.octomap");
   object.shapes = readShapes(value, reader);
   if (object.shapes.empty())
+  {
+    const std::string unknown = unknownKey(value, SceneMap::Object);
     value.fail("object '" + object.id + "' has no shapes; give it primitives, meshes or planes" +
-               value.unknownKeyText(keys));
+               (unknown.empty() ? "" : "; unknown key '" + unknown + "'"));
+  }
   if (const YamlValue* type = value.find("type"))
     object.type = readObjectType(*type, reader);
   // An unset pose counts as no pose. An object with one shape then takes the pose of that shape, as in messages.
@@ -98,9 +99,9 @@ int readLink(const YamlValue& value, const SceneReader& reader)
 /// The pose in the link's frame of the frame that `header` names. Without a header or a name: the link's own frame.
 Eigen::Isometry3d readFrameInLink(const YamlValue* header, int link, SceneReader& reader)
 {
-  const YamlValue* frame = header ? header->find("frame_id") : nullptr;
+  const YamlValue* frame = frameOf(header);
   const std::string& link_name = reader.robot.links()[link].name;
-  if (!frame || frame->text().empty() || frame->text() == link_name || frame->text() == "/" + link_name)
+  if (!frame || frame->text() == link_name || frame->text() == "/" + link_name)
     return Eigen::Isometry3d::Identity();
   const Eigen::Isometry3d frame_pose = readFrame(header, reader);
   if (reader.state.empty())
@@ -114,7 +115,7 @@ Eigen::Isometry3d readFrameInLink(const YamlValue* header, int link, SceneReader
 
 AttachedObject readAttached(const YamlValue& value, SceneReader& reader)
 {
-  value.warnOfUnknownKeys({"link_name", "object", "touch_links", "detach_posture", "weight"}, reader.warnings);
+  checkKeys(value, SceneMap::AttachedObject, reader.warnings);
   AttachedObject attached;
   attached.link = readLink(value.at("link_name"), reader);
   const YamlValue& object = value.at("object");
@@ -148,7 +149,7 @@ void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& res
   };
   const YamlValue* world = scene.find("world");
   if (world)
-    world->warnOfUnknownKeys({"collision_objects", "octomap"}, reader.warnings);
+    checkKeys(*world, SceneMap::World, reader.warnings);
   for (const YamlValue& value : itemsOf(world, "collision_objects"))
   {
     WorldObject object = readObject(value, reader);

@@ -1,6 +1,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "gpu_planning_scene/scene_change.h"
+#include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 
 namespace gpu_planning_scene::core
@@ -27,7 +28,8 @@ std::vector<std::int8_t> readBytes(const YamlValue& value)
 /// MoveIt's message octomap_msgs/Octomap.
 SerializedOctree readOctree(const YamlValue& value, const SceneReader& reader)
 {
-  value.warnOfUnknownKeys({"header", "binary", "id", "resolution", "data"}, reader.warnings);
+  checkKeys(value, SceneMap::Octomap, reader.warnings);
+  frameOf(value.find("header"));  // the frame is that of world.octomap
   SerializedOctree octree;
   const YamlValue* data = value.find("data");
   if (data == nullptr || data->items().empty())
@@ -83,7 +85,7 @@ void readOctomap(const YamlValue& scene, SceneReader& reader, PlanningScene& res
   const YamlValue* const value = world != nullptr ? world->find("octomap") : nullptr;
   if (value == nullptr)
     return;
-  value->warnOfUnknownKeys({"header", "origin", "octomap", "resource"}, reader.warnings);
+  checkKeys(*value, SceneMap::OctomapWithPose, reader.warnings);
   const YamlValue* const resource = value->find("resource");
   const YamlValue* const message = value->find("octomap");
   if (resource == nullptr && message == nullptr)

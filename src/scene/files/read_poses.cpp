@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 #include "scene/frame.h"
 
@@ -9,37 +10,51 @@ namespace
 {
 Eigen::Quaterniond readOrientation(const YamlValue& value)
 {
-  const Eigen::Vector4d components = value.kind() == YamlValue::Kind::Map
-                                         ? Eigen::Vector4d(value.at("x").number(), value.at("y").number(),
-                                                           value.at("z").number(), value.at("w").number())
-                                         : Eigen::Vector4d(value.numbers(4).data());
+  const bool is_map = value.kind() == YamlValue::Kind::Map;
+  if (is_map)
+    checkKeys(value, SceneMap::Quaternion, nullptr);
+  const Eigen::Vector4d components = is_map ? Eigen::Vector4d(value.at("x").number(), value.at("y").number(),
+                                                              value.at("z").number(), value.at("w").number())
+                                            : Eigen::Vector4d(value.numbers(4).data());
   const double norm = components.stableNorm();
   if (norm == 0.0)
     value.fail("the quaternion is zero; the identity is [0, 0, 0, 1]");
   // The components are divided first, so that squares of large components do not overflow.
   return Eigen::Quaterniond(Eigen::Vector4d(components / norm)).normalized();
 }
-}  // namespace
 
-Eigen::Vector3d readVector(const YamlValue& value)
+/// A translation and a rotation under these keys, both optional.
+Eigen::Isometry3d readIsometry(const YamlValue& value, SceneMap kind, const char* position_key,
+                               const char* orientation_key)
 {
-  if (value.kind() == YamlValue::Kind::Map)
-    return Eigen::Vector3d(value.at("x").number(), value.at("y").number(), value.at("z").number());
-  return Eigen::Vector3d(value.numbers(3).data());
-}
-
-Eigen::Isometry3d readPose(const YamlValue& value, const char* position_key, const char* orientation_key)
-{
+  checkKeys(value, kind, nullptr);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  for (const auto& member : value.members())
-    if (member.first != position_key && member.first != orientation_key)
-      member.second.fail("unknown key '" + member.first + "' in a pose; it has '" + position_key + "' and '" +
-                         orientation_key + "'");
   if (const YamlValue* position = value.find(position_key))
     pose.translation() = readVector(*position);
   if (const YamlValue* orientation = value.find(orientation_key))
     pose.linear() = readOrientation(*orientation).toRotationMatrix();
   return pose;
+}
+}  // namespace
+
+Eigen::Vector3d readVector(const YamlValue& value)
+{
+  if (value.kind() == YamlValue::Kind::Map)
+  {
+    checkKeys(value, SceneMap::Vector, nullptr);
+    return Eigen::Vector3d(value.at("x").number(), value.at("y").number(), value.at("z").number());
+  }
+  return Eigen::Vector3d(value.numbers(3).data());
+}
+
+Eigen::Isometry3d readPose(const YamlValue& value)
+{
+  return readIsometry(value, SceneMap::Pose, "position", "orientation");
+}
+
+Eigen::Isometry3d readTransform(const YamlValue& value)
+{
+  return readIsometry(value, SceneMap::Transform, "translation", "rotation");
 }
 
 bool isUnsetPose(const YamlValue& value)
@@ -58,10 +73,9 @@ bool isUnsetPose(const YamlValue& value)
 
 void readFixedFrame(const YamlValue& value, SceneReader& reader)
 {
-  value.warnOfUnknownKeys({"header", "child_frame_id", "transform"}, reader.warnings);
+  checkKeys(value, SceneMap::FixedFrame, reader.warnings);
   const std::string& planning_frame = reader.robot.planningFrame();
-  const YamlValue* header = value.find("header");
-  const YamlValue* parent = header ? header->find("frame_id") : nullptr;
+  const YamlValue* parent = frameOf(value.find("header"));
   const YamlValue& child = value.at("child_frame_id");
   const std::string frame_id = parent ? parent->text() : "";
   const std::optional<std::string> name = fixedFrameName(frame_id, child.text(), planning_frame);
@@ -70,7 +84,7 @@ void readFixedFrame(const YamlValue& value, SceneReader& reader)
         .fail("the transform is between frames '" + frame_id + "' and '" + child.text() +
               "'; one of them must be the planning frame '" + planning_frame +
               "' (the robot's root link, or the parent frame of the SRDF's virtual joint)");
-  const Eigen::Isometry3d pose = readPose(value.at("transform"), "translation", "rotation");
+  const Eigen::Isometry3d pose = readTransform(value.at("transform"));
   if (*name == planning_frame && !pose.isApprox(Eigen::Isometry3d::Identity(), 1e-12))
     child.fail("frame '" + *name + "' is the planning frame; its transform must be the identity");
   if (*name != planning_frame && reader.robot.linkIndex(*name) >= 0)
@@ -81,8 +95,8 @@ void readFixedFrame(const YamlValue& value, SceneReader& reader)
 
 Eigen::Isometry3d readFrame(const YamlValue* header, SceneReader& reader)
 {
-  const YamlValue* value = header ? header->find("frame_id") : nullptr;
-  if (!value || value->text().empty())
+  const YamlValue* value = frameOf(header);
+  if (!value)
     return Eigen::Isometry3d::Identity();
   // Old tf1 names begin with a slash, and so do the links of some robots. So the name is tried as written, then without
   // the slash.

@@ -1,5 +1,7 @@
 #include <cmath>
+#include <utility>
 
+#include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 
 namespace gpu_planning_scene::core
@@ -8,7 +10,7 @@ namespace
 {
 constexpr double kNanoseconds = 1e9;  // in a second
 
-/// A time or duration: seconds, or MoveIt's map of secs and nsecs.
+/// A time or duration: seconds, or MoveIt's map of secs and nsecs (ROS 2: sec and nanosec).
 std::int64_t readTime(const YamlValue* value, double least, double most)
 {
   if (value == nullptr)
@@ -16,9 +18,11 @@ std::int64_t readTime(const YamlValue* value, double least, double most)
   double seconds = 0.0;
   if (value->kind() == YamlValue::Kind::Map)
   {
-    const YamlValue* const whole = value->find("secs");
-    const YamlValue* const rest = value->find("nsecs");
-    seconds = (whole != nullptr ? whole->number() : 0.0) + (rest != nullptr ? rest->number() : 0.0) / kNanoseconds;
+    checkKeys(*value, SceneMap::Time, nullptr);
+    for (const auto& [key, unit] : {std::pair("secs", 1.0), std::pair("sec", 1.0), std::pair("nsecs", kNanoseconds),
+                                    std::pair("nanosec", kNanoseconds)})
+      if (const YamlValue* const part = value->find(key))
+        seconds += part->number() / unit;
   }
   else
     seconds = value->number();
@@ -39,11 +43,11 @@ std::vector<double> readNumbers(const YamlValue& point, const char* key)
 
 JointTrajectory readTrajectory(const YamlValue& value, const SceneReader& reader)
 {
-  value.warnOfUnknownKeys({"header", "joint_names", "points"}, reader.warnings);
+  checkKeys(value, SceneMap::Trajectory, reader.warnings);
   JointTrajectory trajectory;
   if (const YamlValue* const header = value.find("header"))
   {
-    if (const YamlValue* const frame = header->find("frame_id"))
+    if (const YamlValue* const frame = frameOf(header))
       trajectory.frame_id = frame->text();
     trajectory.stamp = readTime(header->find("stamp"), 0.0, 4294967295.0);
   }
@@ -53,8 +57,7 @@ JointTrajectory readTrajectory(const YamlValue& value, const SceneReader& reader
   if (const YamlValue* const points = value.find("points"))
     for (const YamlValue& point : points->items())
     {
-      point.warnOfUnknownKeys({"positions", "velocities", "accelerations", "effort", "time_from_start"},
-                              reader.warnings);
+      checkKeys(point, SceneMap::TrajectoryPoint, reader.warnings);
       trajectory.points.push_back({readNumbers(point, "positions"), readNumbers(point, "velocities"),
                                    readNumbers(point, "accelerations"), readNumbers(point, "effort"),
                                    readTime(point.find("time_from_start"), -2147483647.0, 2147483647.0)});

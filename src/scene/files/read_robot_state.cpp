@@ -4,6 +4,7 @@
 #include "model/joint_limits.h"
 #include "model/text/name_list.h"
 #include "model/virtual_joint.h"
+#include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 #include "scene/frame.h"
 #include "scene/message_values.h"
@@ -36,7 +37,8 @@ struct GivenState
 
 void readJointState(const YamlValue& value, const SceneReader& reader, GivenState& state)
 {
-  value.warnOfUnknownKeys({"header", "name", "position", "velocity", "effort"}, reader.warnings);
+  checkKeys(value, SceneMap::JointState, reader.warnings);
+  frameOf(value.find("header"));  // joint values have no frame
   const YamlValue* names = value.find("name");
   const YamlValue* positions = value.find("position");
   const std::size_t name_count = names ? names->items().size() : 0;
@@ -85,7 +87,7 @@ void setTransform(const YamlValue& where, const Joint& joint, const Eigen::Isome
 
 void readMultiDofState(const YamlValue& value, const SceneReader& reader, GivenState& state)
 {
-  value.warnOfUnknownKeys({"header", "joint_names", "transforms", "twist", "wrench"}, reader.warnings);
+  checkKeys(value, SceneMap::MultiDofJointState, reader.warnings);
   const YamlValue* names = value.find("joint_names");
   const YamlValue* transforms = value.find("transforms");
   const std::size_t name_count = names ? names->items().size() : 0;
@@ -94,8 +96,7 @@ void readMultiDofState(const YamlValue& value, const SceneReader& reader, GivenS
     value.fail(std::to_string(transform_count) + " transforms for " + std::to_string(name_count) + " joint_names");
   if (name_count == 0)
     return;
-  const YamlValue* header = value.find("header");
-  const YamlValue* frame = header ? header->find("frame_id") : nullptr;
+  const YamlValue* frame = frameOf(value.find("header"));
   if (frame && !frame->text().empty() && !isPlanningFrame(reader.robot, frame->text()))
     frame->fail("multi_dof_joint_state is given in frame '" + frame->text() + "'; it must be the planning frame '" +
                 reader.robot.planningFrame() +
@@ -103,7 +104,7 @@ void readMultiDofState(const YamlValue& value, const SceneReader& reader, GivenS
   for (std::size_t i = 0; i < name_count; ++i)
   {
     const std::string& name = names->items()[i].text();
-    const Eigen::Isometry3d pose = readPose(transforms->items()[i], "translation", "rotation");
+    const Eigen::Isometry3d pose = readTransform(transforms->items()[i]);
     const int index = reader.robot.jointIndex(name);
     const Joint* joint = index < 0 ? nullptr : &reader.robot.joints()[index];
     if (!joint)
@@ -153,9 +154,7 @@ void readNamedStates(const YamlValue& value, const SceneReader& reader, GivenSta
 
 std::vector<double> readRobotState(const YamlValue& value, SceneReader& reader)
 {
-  value.warnOfUnknownKeys(
-      {"joint_state", "multi_dof_joint_state", "named_state", "attached_collision_objects", "is_diff"},
-      reader.warnings);
+  checkKeys(value, SceneMap::RobotState, reader.warnings);
   GivenState state;
   state.values = reader.robot.defaultState();
   state.given.assign(state.values.size(), false);

@@ -2,6 +2,7 @@
 #include <cctype>
 
 #include "gpu_planning_scene/error.h"
+#include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 #include "scene/message_values.h"
 
@@ -27,7 +28,7 @@ PrimitiveType readType(const YamlValue& value)
 
 Shape readPrimitive(const YamlValue& value, const SceneReader& reader)
 {
-  value.warnOfUnknownKeys({"type", "dimensions"}, reader.warnings);
+  checkKeys(value, SceneMap::Primitive, reader.warnings);
   const YamlValue& dimensions = value.at("dimensions");
   const PrimitiveType type = readType(value.at("type"));
   std::vector<double> numbers;
@@ -48,7 +49,10 @@ Shape readPrimitive(const YamlValue& value, const SceneReader& reader)
 
 std::array<std::uint32_t, 3> readTriangle(const YamlValue& value, std::size_t vertex_count)
 {
-  const YamlValue& indices = value.kind() == YamlValue::Kind::Map ? value.at("vertex_indices") : value;
+  const bool is_map = value.kind() == YamlValue::Kind::Map;
+  if (is_map)
+    checkKeys(value, SceneMap::Triangle, nullptr);
+  const YamlValue& indices = is_map ? value.at("vertex_indices") : value;
   if (indices.items().size() != 3)
     indices.fail("a triangle has three vertex indices");
   std::array<std::uint32_t, 3> triangle;
@@ -84,7 +88,7 @@ std::shared_ptr<const Mesh> readInlineMesh(const YamlValue& value, SceneReader& 
 /// files call `dimensions`.
 std::shared_ptr<const Mesh> readMesh(const YamlValue& value, SceneReader& reader)
 {
-  value.warnOfUnknownKeys({"vertices", "triangles", "resource", "scale", "dimensions"}, reader.warnings);
+  checkKeys(value, SceneMap::Mesh, reader.warnings);
   const YamlValue* resource = value.find("resource");
   if (!resource)
     return readInlineMesh(value, reader);
@@ -92,8 +96,11 @@ std::shared_ptr<const Mesh> readMesh(const YamlValue& value, SceneReader& reader
     if (const YamlValue* surplus = value.find(key))
       surplus->fail(std::string("a mesh must not have both 'resource' and '") + key + "'");
   const YamlValue* scale = value.find("scale");
+  const YamlValue* dimensions = value.find("dimensions");
+  if (scale && dimensions)
+    dimensions->fail("a mesh must not have both 'scale' and 'dimensions'");
   if (!scale)
-    scale = value.find("dimensions");
+    scale = dimensions;
   try
   {
     const std::string path = reader.meshes.resolve(resource->text(), reader.folder, reader.packages);
@@ -106,11 +113,11 @@ std::shared_ptr<const Mesh> readMesh(const YamlValue& value, SceneReader& reader
 }
 
 /// The plane a x + b y + c z + d = 0: MoveIt's `coef`, or the bare numbers.
-HalfSpace readPlane(const YamlValue& value, const SceneReader& reader)
+HalfSpace readPlane(const YamlValue& value, const SceneReader&)
 {
   const bool is_map = value.kind() == YamlValue::Kind::Map;
   if (is_map)
-    value.warnOfUnknownKeys({"coef"}, reader.warnings);
+    checkKeys(value, SceneMap::Plane, nullptr);
   const YamlValue& coefficients = is_map ? value.at("coef") : value;
   const std::vector<double> numbers = coefficients.numbers(4);
   try

@@ -1,8 +1,7 @@
-#include <algorithm>
-
 #include "gpu_planning_scene/error.h"
 #include "model/text/one_line.h"
 #include "scene/changes/matrix_entries.h"
+#include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 #include "scene/files/scene_text_file.h"
 
@@ -15,22 +14,10 @@ PlanningScene sceneFromYaml(const YamlValue& file, const std::string& folder, st
                             const PackageResolver& packages, std::vector<std::string>* warnings,
                             const MeshAccess& meshes, const SceneDefaults& defaults)
 {
-  static const std::initializer_list<const char*> known_keys = {"name",
-                                                                "robot_state",
-                                                                "robot_model_name",
-                                                                "fixed_frame_transforms",
-                                                                "allowed_collision_matrix",
-                                                                "allowed_collisions",
-                                                                "link_padding",
-                                                                "link_scale",
-                                                                "object_colors",
-                                                                "world",
-                                                                "octomap",
-                                                                "is_diff",
-                                                                "scene_revision"};
-  if (std::none_of(known_keys.begin(), known_keys.end(), [&](const char* key) { return file.find(key) != nullptr; }))
+  refuseMisspeltKeys(file, SceneMap::Scene);
+  if (!hasKnownKey(file, SceneMap::Scene))
     file.fail("not a planning scene: it has no 'world', 'robot_state' or 'allowed_collision_matrix'");
-  file.warnOfUnknownKeys(known_keys, warnings);
+  checkKeys(file, SceneMap::Scene, warnings);
   const YamlValue* is_diff = file.find("is_diff");
   if (is_diff && is_diff->boolean())
     is_diff->fail("this is a difference to another scene (is_diff: true); a full scene is needed");

@@ -36,10 +36,10 @@ struct SceneReader
 
 /// [x, y, z], or a map with x, y and z.
 Eigen::Vector3d readVector(const YamlValue& value);
-/// A pose from a position and an orientation under these keys, both optional. The orientation (x, y, z, w) is
-/// normalised.
-Eigen::Isometry3d readPose(const YamlValue& value, const char* position_key = "position",
-                           const char* orientation_key = "orientation");
+/// A map with `position` and `orientation` (x, y, z, w; it is normalised), both optional.
+Eigen::Isometry3d readPose(const YamlValue& value);
+/// The same with the keys `translation` and `rotation`.
+Eigen::Isometry3d readTransform(const YamlValue& value);
 
 /// Whether a pose has only zeros. ROS writes them for a pose that was never set.
 bool isUnsetPose(const YamlValue& value);
@@ -56,8 +56,8 @@ std::vector<double> readRobotState(const YamlValue& value, SceneReader& reader);
 /// Returns false and leaves `matrix` unchanged if the value holds no entries.
 bool readMatrix(const YamlValue& value, const SceneReader& reader, AllowedCollisionMatrix& matrix);
 
-/// Adds the pairs of `allowed_collisions` to the matrix of `scene`. `scene` must already have its objects: a name that
-/// is neither a link nor an object gets a warning.
+/// Adds the pairs of `allowed_collisions` to the matrix of `scene`. A pair with "*" sets the default of the other body.
+/// `scene` must already have its objects: a name that is neither a link nor an object gets a warning.
 void addAllowedCollisions(const YamlValue& value, const SceneReader& reader, PlanningScene& scene);
 
 /// The primitives, meshes and planes of a collision object, in its frame. A plane becomes the half-space behind it.

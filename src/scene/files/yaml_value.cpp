@@ -12,7 +12,6 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/files/open_file.h"
-#include "model/text/nearest_key.h"
 #include "model/text/parse_number.h"
 
 namespace gpu_planning_scene::core
@@ -107,7 +106,10 @@ class YamlTreeBuilder : public YAML::EventHandler
   void complete(YamlValue value, YAML::anchor_t anchor, std::size_t size)
   {
     if (anchor != 0)
+    {
+      value.has_anchor_ = true;
       anchors_[anchor] = {value, size};
+    }
     if (open_.empty())
     {
       document_ = std::move(value);
@@ -187,9 +189,19 @@ std::string YamlValue::where() const
   return *file_ + ":" + std::to_string(line_);
 }
 
+std::string YamlValue::keyWhere() const
+{
+  return *file_ + ":" + std::to_string(key_line_);
+}
+
 void YamlValue::fail(const std::string& what) const
 {
   throw Error(where() + ": " + what);
+}
+
+void YamlValue::failAtKey(const std::string& what) const
+{
+  throw Error(keyWhere() + ": " + what);
 }
 
 const YamlValue* YamlValue::find(const std::string& key) const
@@ -204,13 +216,7 @@ const YamlValue& YamlValue::at(const std::string& key) const
 {
   const YamlValue* member = find(key);
   if (!member)
-  {
-    std::string meant;
-    for (const auto& [other, value] : members())
-      if (other != key && meant.empty() && !nearestKey(other, {key}).empty())
-        meant = "; did you mean '" + key + "' with '" + other + "'?";
-    fail("'" + key + "' is missing" + meant);
-  }
+    fail("'" + key + "' is missing");
   return *member;
 }
 
@@ -271,21 +277,5 @@ std::vector<double> YamlValue::numbers(std::size_t count) const
   for (const YamlValue& item : items_)
     values.push_back(item.number());
   return values;
-}
-
-void YamlValue::warnOfUnknownKeys(std::initializer_list<const char*> known, std::vector<std::string>* warnings) const
-{
-  for (const auto& member : members())
-    if (warnings && std::find(known.begin(), known.end(), member.first) == known.end())
-      warnings->push_back(*file_ + ":" + std::to_string(member.second.key_line_) + ": unknown key '" + member.first +
-                          "' is not used" + didYouMean(member.first, {known.begin(), known.end()}));
-}
-
-std::string YamlValue::unknownKeyText(std::initializer_list<const char*> known) const
-{
-  for (const auto& member : members())
-    if (std::find(known.begin(), known.end(), member.first) == known.end())
-      return "; unknown key '" + member.first + "'" + didYouMean(member.first, {known.begin(), known.end()});
-  return "";
 }
 }  // namespace gpu_planning_scene::core

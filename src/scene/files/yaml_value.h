@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <initializer_list>
 #include <istream>
 #include <memory>
 #include <string>
@@ -28,13 +27,18 @@ class YamlValue
   static YamlValue fromText(const std::string& text, const std::string& name);
 
   Kind kind() const { return kind_; }
-  std::string where() const;  ///< "FILE:LINE"
+  std::string where() const;     ///< "FILE:LINE"
+  std::string keyWhere() const;  ///< of a map's member: "FILE:LINE" of its key
   /// Throws Error with file and line.
   [[noreturn]] void fail(const std::string& what) const;
+  /// Of a map's member: throws Error with the place of its key.
+  [[noreturn]] void failAtKey(const std::string& what) const;
+  /// Whether the value has an anchor (&NAME), or is an alias of one that has.
+  bool hasAnchor() const { return has_anchor_; }
 
   /// A map's member; null if it is missing or empty. Fails if this is not a map.
   const YamlValue* find(const std::string& key) const;
-  /// A map's member; fails if it is missing or empty. The message suggests the key for a member with a similar one.
+  /// A map's member; fails if it is missing or empty.
   const YamlValue& at(const std::string& key) const;
   /// Fails if this is not a map.
   const std::vector<std::pair<std::string, YamlValue>>& members() const;
@@ -48,13 +52,6 @@ class YamlValue
   /// The items of a list of exactly `count` finite numbers; fails if the value is not one.
   std::vector<double> numbers(std::size_t count) const;
 
-  /// Adds a line to `warnings` (may be null) for each member whose key is not in `known`. The line has the place of the
-  /// key, and the known key that is similar, if there is one.
-  void warnOfUnknownKeys(std::initializer_list<const char*> known, std::vector<std::string>* warnings) const;
-  /// The end of an error message: "; unknown key 'KEY'" with the first member whose key is not in `known`, and the
-  /// known key that is similar, if there is one. Empty if all keys are known.
-  std::string unknownKeyText(std::initializer_list<const char*> known) const;
-
  private:
   friend class YamlTreeBuilder;
   static YamlValue read(std::istream& stream, const std::string& name);
@@ -62,6 +59,7 @@ class YamlValue
   Kind kind_ = Kind::Null;
   int line_ = 0;
   int key_line_ = 0;  ///< of a map's member: the line of its key
+  bool has_anchor_ = false;
   std::shared_ptr<const std::string> file_;
   std::string scalar_;
   std::vector<YamlValue> items_;
