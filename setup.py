@@ -25,8 +25,8 @@ class CMakeBuild(build_ext):
         }
         subprocess.run(["cmake", "-S", ROOT, "-B", build, *(f"-D{name}={value}" for name, value in options.items())],
                        check=True)
-        subprocess.run(["cmake", "--build", build, "--target", "gpu_planning_scene_python", "read_mesh",
-                        "--parallel", str(os.cpu_count())], check=True)
+        subprocess.run(["cmake", "--build", build, "--target", "gpu_planning_scene_python", "--parallel",
+                        str(os.cpu_count())], check=True)
         subprocess.run(["cmake", "--install", build], check=True)
 
 

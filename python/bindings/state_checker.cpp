@@ -57,7 +57,7 @@ CheckerPtr openedOnDevice(const Arg<ScenePtr>& scene, const Arg<std::string>& de
   const BatchCheckerOptions options = optionsFrom(device, tolerance, max_batch, cpu_below, traversal);
   return opened(*scene.value,
                 [&](const std::shared_ptr<const PlanningScene>& copy) -> std::shared_ptr<StateChecker>
-                { return core::openChecker(copy, options); });
+                { return core::openCheckerOrCpu(copy, options); });
 }
 
 BatchResult checkStates(SharedChecker& checker, const py::object& states, const Arg<std::string>& group)
@@ -221,7 +221,8 @@ void addStateChecker(py::module_& module)
       "\"cpu\" is the library's CpuChecker, which needs no OpenGL. All other values are its BatchChecker: \"auto\" "
       "takes "
       "the first hardware device, or software if there is none; \"software\"; an index of list_devices() as a str; a "
-      "part of a renderer's name; several devices as \"0+1\"; all GPUs as \"all\". All devices give the same `valid`. "
+      "part of a renderer's name; several devices as \"0+1\"; all GPUs as \"all\". If the device of \"auto\" or \"all\" cannot hold the scene, the CPU checks it, "
+      "and device_warning says why. All devices give the same `valid`. "
       "tolerance: metres; 0: exact; above 0, bodies within this distance may be reported as colliding. max_batch: the "
       "most states that go to the GPU at once. cpu_below: the CPU checks batches of fewer states; None: the "
       "checker measures at which size the GPU becomes faster. traversal: \"work_queue\" or \"breadth_first\".\n\n"
