@@ -1,5 +1,5 @@
-// Any content of a mesh file becomes a mesh or one line of error. The first byte chooses the format, because the name of
-// a file does so otherwise.
+// Any content of a mesh file becomes a mesh or one line of error. The first byte chooses the format, because the name
+// of a file does so otherwise.
 
 #include "fuzz/fuzz_target.h"
 #include "model/meshes/mesh_formats.h"

@@ -200,6 +200,20 @@ Polygon cells(std::mt19937& random)
     if ((full[x - 1][y] || full[x + 1][y] || full[x][y - 1] || full[x][y + 1]) && !touches_by_corner(x, y))
       full[x][y] = true;
   }
+  const auto is_surrounded = [&](int x, int y)
+  {
+    for (int dx = -1; dx <= 1; ++dx)
+      for (int dy = -1; dy <= 1; ++dy)
+        if (!full[x + dx][y + dy])
+          return false;
+    return true;
+  };
+  for (int i = 0; i < 30; ++i)
+  {
+    const int x = place(random);
+    const int y = place(random);
+    full[x][y] = full[x][y] && !is_surrounded(x, y);
+  }
   std::map<std::pair<int, int>, std::pair<int, int>> next;  // along the boundary, with cells on the left
   for (int x = 1; x <= kSize; ++x)
     for (int y = 1; y <= kSize; ++y)
@@ -340,8 +354,9 @@ TEST(Orientation, IsExactWhereDoublesRound)
     const long long m = large(random) / 2;
     const std::array<std::array<long long, 2>, 3> p{
         {{x + few(random), x + few(random)}, {x + m + few(random), x + m + few(random)}, {x / 2 + few(random), x / 2}}};
-    const auto point = [&](int k)
-    { return Point(static_cast<double>(p[k][0]), static_cast<double>(p[k][1])) * 0x1p-40; };
+    const auto point = [&](int k) -> Point {
+      return {std::ldexp(static_cast<double>(p[k][0]), -40), std::ldexp(static_cast<double>(p[k][1]), -40)};
+    };
     __extension__ using Wide = __int128;
     const Wide sign = static_cast<Wide>(p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) -
                       static_cast<Wide>(p[1][1] - p[0][1]) * (p[2][0] - p[0][0]);

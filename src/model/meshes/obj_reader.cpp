@@ -143,6 +143,6 @@ class ObjReader
 
 void readObj(std::string_view content, MeshBuilder& mesh)
 {
-  ObjReader(content).read(mesh);
+  ObjReader(withoutByteOrderMark(content)).read(mesh);
 }
 }  // namespace gpu_planning_scene::core

@@ -31,14 +31,17 @@ bool isBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::
   return (c.array() >= a.cwiseMin(b).array()).all() && (c.array() <= a.cwiseMax(b).array()).all();
 }
 
+/// Whether the open segments a-b and c-d meet in a point.
+bool cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c, const Eigen::Vector2d& d)
+{
+  return orientation(a, b, c) * orientation(a, b, d) < 0 && orientation(c, d, a) * orientation(c, d, b) < 0;
+}
+
 bool touch(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c, const Eigen::Vector2d& d)
 {
-  const int abc = orientation(a, b, c);
-  const int abd = orientation(a, b, d);
-  const int cda = orientation(c, d, a);
-  const int cdb = orientation(c, d, b);
-  return (abc * abd < 0 && cda * cdb < 0) || (abc == 0 && isBetween(a, b, c)) || (abd == 0 && isBetween(a, b, d)) ||
-         (cda == 0 && isBetween(c, d, a)) || (cdb == 0 && isBetween(c, d, b));
+  return cross(a, b, c, d) || (orientation(a, b, c) == 0 && isBetween(a, b, c)) ||
+         (orientation(a, b, d) == 0 && isBetween(a, b, d)) || (orientation(c, d, a) == 0 && isBetween(c, d, a)) ||
+         (orientation(c, d, b) == 0 && isBetween(c, d, b));
 }
 
 /// Whether a segment that leaves the corner to `target` begins on the left of the loop, which is its inner side.
@@ -64,16 +67,27 @@ class HoleJoiner
   {
     while (!holes_.empty())
       if (!joinOne())
-        throw Error("a polygon has a hole that crosses its outline or lies outside it");
+        throw Error("a polygon has a hole that crosses its outline or another hole, or lies outside the outline");
     return outline_;
   }
 
  private:
+  /// The outline has the holes that were joined before.
+  bool crossesOutline(const Loop& hole) const
+  {
+    for (std::size_t i = 0; i < hole.size(); ++i)
+      for (std::size_t k = 0; k < outline_.size(); ++k)
+        if (cross(points_[hole[i]], points_[hole[(i + 1) % hole.size()]], points_[outline_[k]],
+                  points_[outline_[(k + 1) % outline_.size()]]))
+          return true;
+    return false;
+  }
+
   /// Another hole can hide a hole from the outline, so the first hole that has a bridge is joined.
   bool joinOne()
   {
     for (std::size_t i = 0; i < holes_.size(); ++i)
-      if (join(i))
+      if (!crossesOutline(holes_[i]) && join(i))
       {
         holes_.erase(holes_.begin() + static_cast<std::ptrdiff_t>(i));
         return true;

@@ -109,8 +109,9 @@ void readStl(std::string_view content, MeshBuilder& mesh)
   if (content.size() == binary_size)
     return readBinary(content, mesh);
   const bool has_zero_byte = content.substr(0, kHeaderBytes + sizeof(std::uint32_t)).find('\0') != content.npos;
-  if (is(Words(content).next(), "solid") && !has_zero_byte)
-    return AsciiStl(content, mesh).read();
+  const std::string_view text = withoutByteOrderMark(content);
+  if (is(Words(text).next(), "solid") && !has_zero_byte)
+    return AsciiStl(text, mesh).read();
   throw Error("it is no ASCII STL, which begins with 'solid', and a binary STL with this header has " +
               std::to_string(binary_size) + " bytes, not " + std::to_string(content.size()));
 }

@@ -33,6 +33,12 @@ void Words::skipLine()
     ++at_;
 }
 
+std::string_view withoutByteOrderMark(std::string_view text)
+{
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return text.substr(0, kMark.size()) == kMark ? text.substr(kMark.size()) : text;
+}
+
 std::string quoted(std::string_view word)
 {
   constexpr std::size_t kMaxLength = 40;

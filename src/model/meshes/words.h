@@ -27,6 +27,9 @@ class Words
   std::size_t line_;
 };
 
+/// A text without the mark of UTF-8 that some editors put before it.
+std::string_view withoutByteOrderMark(std::string_view text);
+
 /// A word in quotation marks, on one line and shortened, for messages.
 std::string quoted(std::string_view word);
 

@@ -360,7 +360,8 @@ TEST(OpenCheckerOrCpu, TheCpuTakesASceneThatTheDeviceCannotCheck)
   const TestScene& test = testScene("arm_boxes");
   const std::vector<double> states = test.randomStates(100, 3);
   BatchCheckerOptions options;
-  options.shader_folder = "/no/shaders";  // as a device whose limits the scene exceeds, it throws when it gets the scene
+  options.shader_folder =
+      "/no/shaders";  // as a device whose limits the scene exceeds, it throws when it gets the scene
   const auto checker = openCheckerOrCpu(test.scene, options);
   EXPECT_EQ(checker->deviceName(), "CPU");
   EXPECT_NE(checker->deviceWarning().find("the CPU checks all states; reason: "), std::string::npos);

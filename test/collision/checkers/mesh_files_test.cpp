@@ -34,10 +34,13 @@ bool hits(const std::string& path, double radius, const Eigen::Vector3d& centre)
 TEST(MeshFiles, TheNotchOfAConcaveFaceIsFreeInEachFormat)
 {
   const TemporaryFolder folder;
-  const std::string obj = folder.write("l.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n");
+  const std::string obj =
+      folder.write("l.obj", "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nf 1 2 3 4 5 6\n");
   const std::string ply = folder.write(
-      "l.ply", "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\nelement face "
-               "1\nproperty list uchar uint vertex_index\nend_header\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n6 0 1 2 3 4 5\n");
+      "l.ply",
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\nproperty float z\nelement face "
+      "1\nproperty list uchar uint vertex_index\nend_header\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n6 0 1 2 3 4 "
+      "5\n");
   const std::string dae = folder.write("l.dae", R"(<COLLADA><library_geometries><geometry id="g"><mesh><source id="p">
     <float_array id="a" count="18">0 0 0 2 0 0 2 1 0 1 1 0 1 2 0 0 2 0</float_array><technique_common>
     <accessor source="#a" stride="3" count="6"><param name="X"/><param name="Y"/><param name="Z"/></accessor>
