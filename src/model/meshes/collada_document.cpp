@@ -77,12 +77,12 @@ const XMLElement& ColladaDocument::target(const XMLElement& element, const char*
   if (url == nullptr)
     failAt(element, "it has no attribute '" + std::string(attribute) + "'");
   if (url[0] != '#')
-    failAt(element, quoted(url) + " is not in this file; only '#ID' can be read, so export one file");
+    failAt(element, inQuotes(url) + " is not in this file; only '#ID' can be read, so export one file");
   const auto found = elements_.find({kind, url + 1});
   if (found == elements_.end())
-    failAt(element, "there is no <" + kind + "> with the id " + quoted(url + 1));
+    failAt(element, "there is no <" + kind + "> with the id " + inQuotes(url + 1));
   if (found->second == nullptr)
-    failAt(element, "there are two <" + kind + "> with the id " + quoted(url + 1));
+    failAt(element, "there are two <" + kind + "> with the id " + inQuotes(url + 1));
   return *found->second;
 }
 
@@ -112,7 +112,7 @@ std::size_t countOf(const XMLElement& element, const char* attribute)
     failAt(element, "it has no attribute '" + std::string(attribute) + "'");
   const std::int64_t count = integerFrom(text, static_cast<std::size_t>(element.GetLineNum()));
   if (count < 0 || count > 0xffffffff)
-    failAt(element, std::string(attribute) + " is " + quoted(text));
+    failAt(element, std::string(attribute) + " is " + inQuotes(text));
   return static_cast<std::size_t>(count);
 }
 

@@ -26,7 +26,7 @@ double unitOf(const XMLElement& asset)
     return 1.0;
   const double value = numberFrom(metres, static_cast<std::size_t>(unit->GetLineNum()));
   if (!(value > 0.0))
-    failAt(*unit, "a unit of " + quoted(metres) + " metres is not above 0");
+    failAt(*unit, "a unit of " + inQuotes(metres) + " metres is not above 0");
   return value;
 }
 

@@ -80,7 +80,7 @@ class ObjReader
     else if (keyword == "f" || keyword == "fo")  // fo: the old name
       readFace(words);
     else if (!keyword.empty() && std::find(kNoSurface.begin(), kNoSurface.end(), keyword) == kNoSurface.end())
-      failInLine(lines_.number(), "the statement " + quoted(keyword) +
+      failInLine(lines_.number(), "the statement " + inQuotes(keyword) +
                                       " cannot be read; only polygons can, so export the model as a polygon mesh");
   }
 
@@ -112,7 +112,7 @@ class ObjReader
     const std::size_t end = std::min(corner.find('/'), corner.size());
     const std::int64_t number = integerFrom(corner.substr(0, end), lines_.number());
     if (corner.find_first_not_of("-0123456789/", end) != corner.npos)
-      failInLine(lines_.number(), quoted(corner) + " is no corner of a face");
+      failInLine(lines_.number(), inQuotes(corner) + " is no corner of a face");
     return number < 0 ? static_cast<std::int64_t>(vertices_.size()) + number : number - 1;
   }
 

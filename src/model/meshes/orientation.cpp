@@ -38,9 +38,8 @@ Integer integer(double value, int unit)
 int exactOrientation(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c)
 {
   int unit = 0;
-  for (const Eigen::Vector2d* point : {&a, &b, &c})
-    for (const double value : *point)
-      unit = value == 0.0 ? unit : std::min(unit, lastDigit(value));
+  for (const double value : {a.x(), a.y(), b.x(), b.y(), c.x(), c.y()})
+    unit = value == 0.0 ? unit : std::min(unit, lastDigit(value));
   const Integer ax = integer(a.x(), unit);
   const Integer ay = integer(a.y(), unit);
   const Integer left = (integer(b.x(), unit) - ax) * (integer(c.y(), unit) - ay);

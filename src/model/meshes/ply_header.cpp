@@ -80,7 +80,7 @@ class HeaderReader
     if (!is_format || format == std::end(kPlyFormats) || words.next() != "1.0" || !words.next().empty())
       failInLine(line_,
                  "expected 'format', one of ascii, binary_little_endian and binary_big_endian, and '1.0', found " +
-                     quoted(line));
+                     inQuotes(line));
     header_.format = format->second;
   }
 
@@ -102,9 +102,9 @@ class HeaderReader
     else if (keyword == "property")
       readProperty(words);
     else if (keyword != "end_header")
-      failInLine(line_, quoted(keyword) + " is no statement of a PLY header");
+      failInLine(line_, inQuotes(keyword) + " is no statement of a PLY header");
     if (!words.next().empty())
-      failInLine(line_, quoted(line) + " has too many words");
+      failInLine(line_, inQuotes(line) + " has too many words");
     return keyword == "end_header";
   }
 
@@ -115,9 +115,9 @@ class HeaderReader
     const std::string_view count = words.next();
     const std::optional<long long> number = parseInteger(count);
     if (!number || *number < 0)
-      failInLine(line_, "the number of elements " + quoted(element.name) + " is " + quoted(count));
+      failInLine(line_, "the number of elements " + inQuotes(element.name) + " is " + inQuotes(count));
     if (hasName(header_.elements, element.name))
-      failInLine(line_, "the element " + quoted(element.name) + " is there twice");
+      failInLine(line_, "the element " + inQuotes(element.name) + " is there twice");
     element.count = static_cast<std::uint64_t>(*number);
     header_.elements.push_back(std::move(element));
   }
@@ -139,7 +139,7 @@ class HeaderReader
     property.name = words.next();
     std::vector<PlyProperty>& properties = header_.elements.back().properties;
     if (property.name.empty() || hasName(properties, property.name))
-      failInLine(line_, "the property " + quoted(property.name) + " has no name, or is there twice");
+      failInLine(line_, "the property " + inQuotes(property.name) + " has no name, or is there twice");
     properties.push_back(std::move(property));
   }
 
@@ -148,7 +148,7 @@ class HeaderReader
     const auto type =
         std::find_if(std::begin(kPlyTypes), std::end(kPlyTypes), [&](const auto& t) { return t.first == name; });
     if (type == std::end(kPlyTypes))
-      failInLine(line_, quoted(name) +
+      failInLine(line_, inQuotes(name) +
                             " is no type of PLY; the types are char, uchar, short, ushort, int, uint, float and "
                             "double");
     return type->second;

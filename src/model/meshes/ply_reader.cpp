@@ -165,7 +165,7 @@ class PlyReader
   void skipElements(const PlyElement& element)
   {
     if (std::any_of(element.properties.begin(), element.properties.end(), isIndexList))
-      throw Error("the element " + quoted(element.name) +
+      throw Error("the element " + inQuotes(element.name) +
                   " cannot be read; only 'face' and 'tristrips' can, so export the model as a polygon mesh");
     if (!element.properties.empty())
       for (std::uint64_t i = 0; i < element.count; ++i)

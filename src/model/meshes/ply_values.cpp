@@ -67,7 +67,7 @@ class AsciiValues : public PlyValues
   {
     const std::int64_t value = integerFrom(word, words_.line());
     if (value < std::numeric_limits<Integer>::min() || value > std::numeric_limits<Integer>::max())
-      failInLine(words_.line(), quoted(word) + " is out of the range of its type");
+      failInLine(words_.line(), inQuotes(word) + " is out of the range of its type");
     return static_cast<double>(value);
   }
 

@@ -79,8 +79,11 @@ class AsciiStl
       for (Eigen::Vector3d& corner : corners)
       {
         require("vertex");
-        for (double& coordinate : corner)
-          coordinate = numberFrom(words_.next(), words_.line());
+        for (int axis = 0; axis < 3; ++axis)
+        {
+          const std::string_view word_of_number = words_.next();
+          corner[axis] = numberFrom(word_of_number, words_.line());
+        }
       }
       require("endloop");
       require("endfacet");
@@ -94,7 +97,7 @@ class AsciiStl
   {
     if (!is(word, keyword))
       failInLine(words_.line(), "expected '" + std::string(keyword) + "', found " +
-                                    (word.empty() ? "the end of the file" : quoted(word)));
+                                    (word.empty() ? "the end of the file" : inQuotes(word)));
   }
 
   Words words_;

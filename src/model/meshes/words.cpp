@@ -39,7 +39,7 @@ std::string_view withoutByteOrderMark(std::string_view text)
   return text.substr(0, kMark.size()) == kMark ? text.substr(kMark.size()) : text;
 }
 
-std::string quoted(std::string_view word)
+std::string inQuotes(std::string_view word)
 {
   constexpr std::size_t kMaxLength = 40;
   const bool is_long = word.size() > kMaxLength;
@@ -50,9 +50,9 @@ double numberFrom(std::string_view word, std::size_t line)
 {
   const std::optional<double> value = parseNumber(word);
   if (!value)
-    failInLine(line, quoted(word) + " is not a number, or one that a double cannot hold");
+    failInLine(line, inQuotes(word) + " is not a number, or one that a double cannot hold");
   if (!std::isfinite(*value))
-    failInLine(line, quoted(word) + " is not finite");
+    failInLine(line, inQuotes(word) + " is not finite");
   return *value;
 }
 
@@ -60,7 +60,7 @@ std::int64_t integerFrom(std::string_view word, std::size_t line)
 {
   const std::optional<long long> value = parseInteger(word);
   if (!value)
-    failInLine(line, quoted(word) + " is not an integer");
+    failInLine(line, inQuotes(word) + " is not an integer");
   return *value;
 }
 

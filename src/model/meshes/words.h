@@ -31,7 +31,7 @@ class Words
 std::string_view withoutByteOrderMark(std::string_view text);
 
 /// A word in quotation marks, on one line and shortened, for messages.
-std::string quoted(std::string_view word);
+std::string inQuotes(std::string_view word);
 
 /// The number that a word is. `line`: its line, for the message. Throws Error if it is not a number, not finite, or too
 /// large for a double.
