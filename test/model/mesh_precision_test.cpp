@@ -16,14 +16,14 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-using Triangles = std::vector<std::array<Eigen::Vector3d, 3>>;
+using ReadTriangles = std::vector<std::array<Eigen::Vector3d, 3>>;
 
 std::shared_ptr<const Mesh> read(const std::string& path)
 {
   return readMeshFile(path, Eigen::Vector3d::Ones());
 }
 
-void addTriangles(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& parent, Triangles& triangles)
+void addTriangles(const aiScene& scene, const aiNode& node, const Eigen::Affine3d& parent, ReadTriangles& triangles)
 {
   const aiMatrix4x4& m = node.mTransformation;
   Eigen::Affine3d pose;
@@ -51,13 +51,13 @@ void addTriangles(const aiScene& scene, const aiNode& node, const Eigen::Affine3
 }
 
 /// The triangles that Assimp reads, in the order of the file.
-Triangles assimpTriangles(const std::string& path)
+ReadTriangles assimpTriangles(const std::string& path)
 {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate);
-  Triangles triangles;
+  ReadTriangles triangles;
   if (scene != nullptr && scene->mRootNode != nullptr)
     addTriangles(*scene, *scene->mRootNode, Eigen::Affine3d::Identity(), triangles);
   return triangles;
@@ -81,8 +81,8 @@ TEST(MeshPrecision, TheFilesAtHandAreReadAsAssimpReadsThem)
 {
   namespace fs = std::filesystem;
   std::size_t files = 0;
-  for (const fs::path folder : {fs::path(GPS_DART_DATA_DIR) / "urdf", fs::path(GPS_DART_DATA_DIR) / "obj",
-                                fs::path(GPS_SHARED_DIR) / "robots", fs::path(GPS_SHARED_DIR) / "moveit/resources"})
+  for (const fs::path& folder : {fs::path(GPS_DART_DATA_DIR) / "urdf", fs::path(GPS_DART_DATA_DIR) / "obj",
+                                 fs::path(GPS_SHARED_DIR) / "robots", fs::path(GPS_SHARED_DIR) / "moveit/resources"})
   {
     if (!fs::exists(folder))
       continue;
@@ -93,7 +93,7 @@ TEST(MeshPrecision, TheFilesAtHandAreReadAsAssimpReadsThem)
       const bool is_mesh = std::set<std::string>{".stl", ".STL", ".obj", ".ply", ".dae"}.count(extension) != 0;
       if (!is_mesh || entry.file_size() > 400000 || path.find("invalid") != std::string::npos)
         continue;
-      const Triangles theirs = assimpTriangles(path);
+      const ReadTriangles theirs = assimpTriangles(path);
       const auto mesh = read(path);
       ++files;
       ASSERT_EQ(mesh->triangles.size(), theirs.size()) << path;
@@ -147,8 +147,9 @@ TEST(MeshPrecision, NumbersInTextsAreReadAsDoubles)
 TEST(MeshPrecision, NumbersThatNoMeshCanHaveAreRefused)
 {
   const TemporaryFolder folder;
-  for (const std::string text : {"100000000000000000000.0", "340000000000000000000000000000000000000", "3.4e38",
-                                 "1e400", "1e-400", "nan", "inf", "1,5", "1.5x", "0x10", "--1", "1.#IND", "1.0d0"})
+  for (const std::string& text :
+       std::vector<std::string>{"100000000000000000000.0", "340000000000000000000000000000000000000", "3.4e38", "1e400",
+                                "1e-400", "nan", "inf", "1,5", "1.5x", "0x10", "--1", "1.#IND", "1.0d0"})
     for (const std::string& file : filesWith(folder, text))
     {
       const std::string error = errorOf([&] { read(file); });

@@ -159,8 +159,8 @@ std::string plyFile(const Mesh& mesh, Coding coding, unsigned seed)
   return header + "end_header" + end + values.written();
 }
 
-/// Triangles of a grid of integers, which all types can hold. Many coordinates and indices are 10 or 13, the bytes of
-/// ends of lines.
+/// PlacedTriangles of a grid of integers, which all types can hold. Many coordinates and indices are 10 or 13, the
+/// bytes of ends of lines.
 Mesh gridMesh(std::mt19937& random)
 {
   std::uniform_int_distribution<int> place(0, 14);
@@ -176,11 +176,11 @@ Mesh gridMesh(std::mt19937& random)
   return mesh;
 }
 
-using Triangles = std::vector<std::array<Eigen::Vector3d, 3>>;
+using PlacedTriangles = std::vector<std::array<Eigen::Vector3d, 3>>;
 
-Triangles trianglesOf(const Mesh& mesh)
+PlacedTriangles trianglesOf(const Mesh& mesh)
 {
-  Triangles triangles;
+  PlacedTriangles triangles;
   for (const auto& [a, b, c] : mesh.triangles)
     triangles.push_back({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
   return triangles;

@@ -18,7 +18,7 @@ namespace
 {
 using Point = Eigen::Vector2d;
 using Outline = std::vector<Point>;
-using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+using CutTriangles = std::vector<std::array<std::uint32_t, 3>>;
 
 double cross(const Point& a, const Point& b)
 {
@@ -76,7 +76,7 @@ enum class Plane
   Tilted    // coordinates remain exact
 };
 
-Triangles triangulated(const Polygon& polygon, Plane plane)
+CutTriangles triangulated(const Polygon& polygon, Plane plane)
 {
   std::vector<Eigen::Vector3d> corners;
   for (const Point& p : polygon.corners())
@@ -89,7 +89,7 @@ Triangles triangulated(const Polygon& polygon, Plane plane)
   return triangulatePolygon(corners, polygon.holeStarts());
 }
 
-int countAt(const Triangles& triangles, const Outline& corners, const Point& p)
+int countAt(const CutTriangles& triangles, const Outline& corners, const Point& p)
 {
   return static_cast<int>(std::count_if(
       triangles.begin(), triangles.end(),
@@ -100,7 +100,7 @@ int countAt(const Triangles& triangles, const Outline& corners, const Point& p)
 
 /// Each edge of the polygon, in its direction, is an edge of one triangle; each other edge of a triangle has a
 /// neighbour. `holes_turn`: the holes may be given in both directions.
-void expectTheEdgesOfThePolygon(const Triangles& triangles, const Polygon& polygon)
+void expectTheEdgesOfThePolygon(const CutTriangles& triangles, const Polygon& polygon)
 {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (const auto& triangle : triangles)
@@ -132,7 +132,7 @@ void expectTheEdgesOfThePolygon(const Triangles& triangles, const Polygon& polyg
 void expectExactCover(const Polygon& polygon, Plane plane, std::mt19937& random)
 {
   const Outline corners = polygon.corners();
-  const Triangles triangles = triangulated(polygon, plane);
+  const CutTriangles triangles = triangulated(polygon, plane);
   EXPECT_EQ(triangles.size(), corners.size() + 2 * polygon.loops.size() - 4);
   expectTheEdgesOfThePolygon(triangles, polygon);
   double area = 0.0;
@@ -278,7 +278,7 @@ TEST(Polygon, AHoleCanTurnEitherWay)
   for (int i = 0; i < 2; ++i, std::reverse(hole.begin(), hole.end()))
   {
     const Polygon polygon{{square, hole}};
-    const Triangles triangles = triangulated(polygon, Plane::Floor);
+    const CutTriangles triangles = triangulated(polygon, Plane::Floor);
     EXPECT_EQ(countAt(triangles, polygon.corners(), {2.1, 2.2}), 0);
     EXPECT_EQ(countAt(triangles, polygon.corners(), {0.5, 2.2}), 1);
   }
@@ -305,7 +305,7 @@ TEST(Polygon, OutlinesThatCrossThemselvesLoseNothing)
     Polygon polygon{{{}}};
     for (int i = 0; i < count; ++i)
       polygon.loops[0].emplace_back(place(random), place(random));
-    const Triangles triangles = triangulated(polygon, Plane::Floor);
+    const CutTriangles triangles = triangulated(polygon, Plane::Floor);
     std::uniform_real_distribution<double> share(0.0, seed % 2 == 0 ? 4.0 : 1000.0);
     for (int i = 0; i < 100; ++i)
     {
