@@ -189,7 +189,7 @@ PlacedTriangles trianglesOf(const Mesh& mesh)
 TEST(Ply, AllTypesAndByteOrdersGiveTheSameMesh)
 {
   const TemporaryFolder folder;
-  for (unsigned seed = 0; seed < repetitions(200U, 20000U); ++seed)
+  for (unsigned seed = 0; seed < repetitions(100U, 20000U); ++seed)
   {
     std::mt19937 random(seed);
     Mesh mesh = gridMesh(random);
@@ -208,19 +208,21 @@ TEST(Ply, AllTypesAndByteOrdersGiveTheSameMesh)
   }
 }
 
-TEST(Ply, DamagedFilesAreRefusedOrKeepTheirMesh)
+TEST(Ply, DamagedBinaryFilesAreRefused)
 {
   // A file that lost or gained a byte, or whose ends of lines a transfer as text has changed.
   const TemporaryFolder folder;
   const auto error = [&](const std::string& content)
   { return errorOf([&] { readMeshFile(folder.write("mesh.ply", content), Eigen::Vector3d::Ones()); }); };
-  for (unsigned seed = 1; seed < repetitions(100U, 10000U); ++seed)
+  for (unsigned seed = 1; seed < repetitions(60U, 10000U); ++seed)
   {
     std::mt19937 random(seed);
     const Mesh mesh = gridMesh(random);
     const std::string content = plyFile(mesh, seed % 2 == 0 ? Coding::LittleEndian : Coding::BigEndian, 3 * seed + 1);
     EXPECT_NE(error(content.substr(0, content.size() - 1)), "") << "seed " << seed;
     EXPECT_NE(error(content + "\n"), "") << "seed " << seed;
+    if (content.find('\n', content.find("end_header") + 12) == std::string::npos)
+      continue;  // a transfer as text changes none of its values
     std::string as_text;
     for (const char c : content)
       as_text += c == '\n' ? std::string("\r\n") : std::string(1, c);
@@ -268,12 +270,12 @@ TEST(Ply, ErrorsNameThePlaceAndTheFault)
   expect_error(ascii(v + "element patch 1\nproperty list uchar int vertex_indices\n", points + "3 0 1 2\n"),
                "element 'patch' cannot be read");
   expect_error(ascii(v + f, points + "3 0 1 4\n"), "names vertex 4, but there are 4");
-  expect_error(ascii(v + f, points + "3 0 1 -2\n"), "line 13: a face has a number of a vertex that is negative");
+  expect_error(ascii(v + f, points + "3 0 1 -2\n"), "line 14: a face has a number of a vertex that is negative");
   expect_error(ascii(v + f, points + "3 0 1 1.5\n"), "'1.5' is not an integer");
   expect_error(ascii(v + f, points + "300 0 1 2\n"), "'300' is out of the range");
   expect_error(ascii(v + f, points + "3 0 1\n"), "ends before the last");
   expect_error(ascii(v + f, points + "3 0 1 2 3\n"), "goes on after the last");
-  expect_error(ascii(v + f, "0 0 zero\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "line 9: 'zero' is not a number");
+  expect_error(ascii(v + f, "0 0 zero\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "line 10: 'zero' is not a number");
   expect_error(ascii(v + f, "0 0 nan\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "'nan' is not finite");
   expect_error(ascii(v + f, "0 0 1e20\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n"), "farther than 1000 km");
   expect_error(ascii(v, points), "no triangles");
