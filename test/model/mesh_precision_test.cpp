@@ -91,7 +91,7 @@ TEST(MeshPrecision, TheFilesAtHandAreReadAsAssimpReadsThem)
       const std::string extension = entry.path().extension().string();
       const std::string path = entry.path().string();
       const bool is_mesh = std::set<std::string>{".stl", ".STL", ".obj", ".ply", ".dae"}.count(extension) != 0;
-      if (!is_mesh || entry.file_size() > 400000 || path.find("invalid") != std::string::npos)
+      if (!is_mesh || entry.file_size() > 150000 || path.find("invalid") != std::string::npos)
         continue;
       const ReadTriangles theirs = assimpTriangles(path);
       const auto mesh = read(path);

@@ -284,6 +284,14 @@ TEST(Polygon, AHoleCanTurnEitherWay)
   }
 }
 
+TEST(Polygon, AHoleMayTouchTheOutlineInACorner)
+{
+  // The ear at the corner has no other corner of the hole in it, but edges of the hole pass through it.
+  const Polygon polygon{{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{0, 0}, {3, 3.5}, {3.5, 3}}}};
+  std::mt19937 random(1);
+  expectExactCover(polygon, Plane::Floor, random);
+}
+
 TEST(Polygon, AHoleThatIsNotInsideTheOutlineIsRefused)
 {
   const Outline square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
