@@ -104,7 +104,18 @@ class HoleJoiner
         bridges.emplace_back((points_[outline_[i]] - points_[hole[k]]).squaredNorm(), i, k);
     std::sort(bridges.begin(), bridges.end());
     for (const auto& [length, i, k] : bridges)
-      if (isFree({&outline_, i}, {&hole, k}))
+      if (const Corner touched{&outline_, i}; length == 0.0)
+      {
+        // Where the hole touches the outline, no bridge is needed. Of several corners at this place, one has the hole.
+        const std::uint32_t next = hole[(k + 1) % hole.size()];
+        if (!leavesInward(points_, touched, points_[next]))
+          continue;
+        Loop inserted(hole.begin() + static_cast<std::ptrdiff_t>(k) + 1, hole.end());
+        inserted.insert(inserted.end(), hole.begin(), hole.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+        outline_.insert(outline_.begin() + static_cast<std::ptrdiff_t>(i) + 1, inserted.begin(), inserted.end());
+        return true;
+      }
+      else if (isFree({&outline_, i}, {&hole, k}))
       {
         Loop inserted(hole.begin() + static_cast<std::ptrdiff_t>(k), hole.end());
         inserted.insert(inserted.end(), hole.begin(), hole.begin() + static_cast<std::ptrdiff_t>(k) + 1);
