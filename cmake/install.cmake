@@ -3,9 +3,10 @@ set(libraries gpu_planning_scene_model gpu_planning_scene_scene gpu_planning_sce
   gpu_planning_scene_planning)
 set(export_folder ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
 
-# A wheel has only the libraries and the shaders of the Python module. The prefix is the folder of the Python package.
+# A wheel has only what the Python module needs: the libraries, the shaders and the reader of mesh files. The prefix is the folder of the Python package.
 if(GPU_PLANNING_SCENE_WHEEL)
   install(TARGETS ${libraries} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+  install(TARGETS read_mesh RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   install(DIRECTORY shaders DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
   return()
 endif()

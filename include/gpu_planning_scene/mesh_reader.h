@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,13 @@
 
 namespace gpu_planning_scene::core
 {
+/// Reads a mesh file in this process, and scales it per axis; a negative scale mirrors it. The extension of the file
+/// names its format: .stl, .obj, .ply or .dae. Coordinates keep the precision of double. Polygons are cut into
+/// triangles as they are drawn, also concave ones. Throws Error if the file is missing or cannot be read, if it has no
+/// triangles or a vertex that is not finite or farther than 1000 km away, or if a scale is 0 or not finite. The message
+/// is one line that names the file. Thread-safe.
+std::shared_ptr<const Mesh> readMeshFile(const std::string& path, const Eigen::Vector3d& scale);
+
 /// Limits for reading one mesh file, with the parameters of the node in brackets.
 struct MeshLimits
 {
@@ -25,8 +33,13 @@ struct MeshLimits
 /// 0 and below 1e6.
 ReadMesh childMeshReader(std::string program, const MeshLimits& limits);
 
-/// Path of read_mesh. It is installed in the folder of the running program.
-std::string meshReaderBesideThisProgram();
+/// Path of read_mesh, which is installed in the folder gpu_planning_scene beside this library. Throws Error if it is
+/// not there.
+std::string meshReaderProgram();
+
+/// A function that reads each file in a process of its own, without limits. It is the default of MeshCache and
+/// MeshAccess: a file that crashes its reader ends neither a tool nor a Python session.
+ReadMesh defaultMeshReader();
 
 /// Folders from which mesh files may be read, in addition to packages and the base folder of relative paths.
 struct AllowedRoots
@@ -44,10 +57,10 @@ std::string resolveAllowed(const std::string& uri, const std::string& base_folde
 /// apply.
 using FindFile = std::function<std::string(const std::string& uri)>;
 
-/// How mesh files are read, and from which folders. The default reads any file, in this process.
+/// How mesh files are read, and from which folders. The default reads any file.
 struct MeshAccess
 {
-  ReadMesh read;                      ///< empty: this process reads the file
+  ReadMesh read;                      ///< empty: defaultMeshReader(); readMeshFile: this process reads the files
   std::optional<AllowedRoots> roots;  ///< no value: any file
   FindFile find = {};                 ///< comes before all other rules; may be empty
 

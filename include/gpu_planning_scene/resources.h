@@ -35,12 +35,12 @@ std::string resolveUri(const std::string& uri, const std::string& base_folder, c
 /// Reads a mesh file and scales it per axis. Throws Error.
 using ReadMesh = std::function<std::shared_ptr<const Mesh>(const std::string& path, const Eigen::Vector3d& scale)>;
 
-/// Loads and keeps meshes from STL, DAE, OBJ and PLY files. It reads a file once per scale. As in RViz, it applies the
-/// unit of a DAE file, but not its up-axis. Not thread-safe.
+/// Loads and keeps meshes from STL, DAE, OBJ and PLY files. It reads a file once per scale. As in RViz, the unit of a
+/// DAE file is applied, but not its up-axis. Not thread-safe.
 class MeshCache
 {
  public:
-  /// `read`: reads the files; empty: this process reads them.
+  /// `read`: reads the files; empty: defaultMeshReader().
   explicit MeshCache(ReadMesh read = {});
 
   /// The mesh of a file, scaled per axis; a negative scale mirrors it. Throws Error if the file is missing or cannot be

@@ -145,8 +145,8 @@ class StateChecker
   /// The name of the device: GL_RENDERER, or "CPU".
   virtual std::string deviceName() const = 0;
 
-  /// One line if the device's arithmetic breaks an assumption of the error bounds; else empty. On such a device, the
-  /// CPU decides every pair whose bounding boxes overlap, or computes the link poses. The answers stay right.
+  /// One line if the device cannot hold the scene, or if its arithmetic breaks an assumption of the error bounds; else
+  /// empty. The CPU then checks all states, or every pair whose bounding boxes overlap. The answers stay right.
   virtual std::string deviceWarning() const { return {}; }
 };
 }  // namespace gpu_planning_scene::core

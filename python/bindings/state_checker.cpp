@@ -55,9 +55,13 @@ CheckerPtr openedOnDevice(const Arg<ScenePtr>& scene, const Arg<std::string>& de
                           Arg<std::size_t> max_batch, const py::object& cpu_below, const Arg<std::string>& traversal)
 {
   const BatchCheckerOptions options = optionsFrom(device, tolerance, max_batch, cpu_below, traversal);
-  return opened(*scene.value,
-                [&](const std::shared_ptr<const PlanningScene>& copy) -> std::shared_ptr<StateChecker>
-                { return core::openChecker(copy, options); });
+  const CheckerPtr checker =
+      opened(*scene.value,
+             [&](const std::shared_ptr<const PlanningScene>& copy) -> std::shared_ptr<StateChecker>
+             { return core::openCheckerOrCpu(copy, options); });
+  if (const std::string warning = checker->deviceWarning(); !warning.empty())
+    warnOf({warning});
+  return checker;
 }
 
 BatchResult checkStates(SharedChecker& checker, const py::object& states, const Arg<std::string>& group)
@@ -221,7 +225,9 @@ void addStateChecker(py::module_& module)
       "\"cpu\" is the library's CpuChecker, which needs no OpenGL. All other values are its BatchChecker: \"auto\" "
       "takes "
       "the first hardware device, or software if there is none; \"software\"; an index of list_devices() as a str; a "
-      "part of a renderer's name; several devices as \"0+1\"; all GPUs as \"all\". All devices give the same `valid`. "
+      "part of a renderer's name; several devices as \"0+1\"; all GPUs as \"all\". If the device of \"auto\" or "
+      "\"all\" cannot hold the scene, the CPU checks it, "
+      "with a UserWarning. All devices give the same `valid`. "
       "tolerance: metres; 0: exact; above 0, bodies within this distance may be reported as colliding. max_batch: the "
       "most states that go to the GPU at once. cpu_below: the CPU checks batches of fewer states; None: the "
       "checker measures at which size the GPU becomes faster. traversal: \"work_queue\" or \"breadth_first\".\n\n"
@@ -271,7 +277,7 @@ void addStateChecker(py::module_& module)
           "The name of the device: GL_RENDERER, or \"CPU\".")
       .def_property_readonly(
           "device_warning", [](const SharedChecker& self) { return self.deviceWarning(); },
-          "A line if the device's arithmetic breaks an assumption of the error bounds; else empty. The answers stay "
-          "right, but the CPU computes more.");
+          "A line if the device cannot hold the scene, or if its arithmetic breaks an assumption of the error bounds; "
+          "else empty. The answers stay right, but the CPU computes more.");
 }
 }  // namespace gpu_planning_scene::python

@@ -61,10 +61,11 @@ std::string baseOf(const std::string& path, const std::string& out_path,
 }
 
 /// The file `srdf` exists, and the tool would replace it.
-void requireSameRobot(const std::string& urdf, const std::string& srdf)
+void requireSameRobot(const std::string& urdf, const std::string& srdf,
+                      const std::map<std::string, std::string>& packages)
 {
-  const std::string robot = robotNameOf(readDescription(urdf, "URDF", {}).text);
-  if (robotNameOf(readDescription(srdf, "SRDF", {}).text) != robot)
+  const std::string robot = robotNameOf(readDescription(urdf, "URDF", packages, {}).text);
+  if (robotNameOf(readDescription(srdf, "SRDF", packages, {}).text) != robot)
     throw Error(srdf + ": the file exists and is not an SRDF of robot '" + robot + "'; choose another name");
 }
 
@@ -157,7 +158,7 @@ void run(const CommandLine& arguments)
   const bool goes_on = !arguments.has("--srdf") && !out_path.empty() && std::filesystem::exists(out_path);
   const std::string base_path = goes_on ? out_path : arguments.value("--srdf", "");
   if (goes_on)
-    requireSameRobot(arguments.required("--urdf"), out_path);
+    requireSameRobot(arguments.required("--urdf"), out_path, packageFoldersFrom(arguments));
   std::vector<std::string> warnings;
   const auto robot = robotFrom(arguments, base_path, &warnings);
   printWarnings(warnings);

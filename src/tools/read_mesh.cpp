@@ -1,11 +1,15 @@
 // read_mesh: reads one mesh file under limits on time and memory, and writes the mesh to the standard output, for
 // childMeshReader. A hostile file can crash or hang only this process.
 //
+// It ends with its parent.
+//
 //   read_mesh FILE SCALE_X SCALE_Y SCALE_Z SECONDS MEMORY FILE_SIZE TRIANGLES
 //
 // Exit code: 0 with the mesh on the standard output; 1 with one line on the standard error; 3 out of memory; 2 bad
 // usage.
 
+#include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -13,11 +17,12 @@
 #include <string>
 #include <vector>
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include "gpu_planning_scene/error.h"
-#include "gpu_planning_scene/resources.h"
+#include "gpu_planning_scene/mesh_reader.h"
 #include "model/files/mesh_pipe.h"
 
 namespace
@@ -35,9 +40,13 @@ void closeInheritedFiles()
       close(file);
 }
 
+/// Only a privileged process can raise a limit that its parent has set.
 void limit(__rlimit_resource_t resource, rlim_t max)
 {
-  const rlimit value{max, max};
+  rlimit value{};
+  getrlimit(resource, &value);
+  value.rlim_max = std::min(max, value.rlim_max);
+  value.rlim_cur = value.rlim_max;
   if (setrlimit(resource, &value) != 0)
     throw Error("the mesh reader cannot set its limits of memory and time");
 }
@@ -47,8 +56,9 @@ void limitThisProcess(unsigned seconds, rlim_t memory)
   limit(RLIMIT_CPU, seconds);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_FSIZE, 0);
-  alarm(seconds + 1);         // ends this process even if its parent has died
-#ifndef __SANITIZE_ADDRESS__  // the sanitizer's shadow memory takes terabytes of address space
+  alarm(seconds + 1);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // ends this process if the thread that waits for it has ended
+#ifndef __SANITIZE_ADDRESS__         // the sanitizer's shadow memory takes terabytes of address space
   limit(RLIMIT_AS, memory);
 #else
   static_cast<void>(memory);
@@ -79,7 +89,7 @@ void read(const char* const* arguments)
   if (!none && bytes > max_bytes)
     throw Error("mesh file '" + path + "': it has " + std::to_string(bytes) + " bytes; at most " +
                 std::to_string(max_bytes) + " are allowed (~mesh/file_size)");
-  const auto mesh = MeshCache().load(path, scale);
+  const auto mesh = readMeshFile(path, scale);
   if (mesh->triangles.size() > max_triangles)
     throw Error("mesh file '" + path + "': it has " + std::to_string(mesh->triangles.size()) + " triangles; at most " +
                 std::to_string(max_triangles) + " are allowed (~limits/triangles_of_mesh)");
@@ -91,8 +101,10 @@ int main(int argc, char** argv)
 {
   if (argc != 9)
   {
-    std::fputs("usage: read_mesh FILE SCALE_X SCALE_Y SCALE_Z SECONDS MEMORY FILE_SIZE TRIANGLES\n", stderr);
-    return 2;
+    const bool asks_for_help = argc == 2 && std::string(argv[1]) == "--help";
+    std::fputs("usage: read_mesh FILE SCALE_X SCALE_Y SCALE_Z SECONDS MEMORY FILE_SIZE TRIANGLES\n",
+               asks_for_help ? stdout : stderr);
+    return asks_for_help ? 0 : 2;
   }
   try
   {

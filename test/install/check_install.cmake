@@ -62,8 +62,12 @@ unset(ENV{DESTDIR})
 run("find_package does not find it" ${CMAKE_COMMAND} -S ${CONSUMER} -B ${folder}/build -G ${GENERATOR}
   -DCMAKE_PREFIX_PATH=${prefix} ${build_options} -DPYTHON_EXECUTABLE=${PYTHON_EXECUTABLE})
 run("a package does not build against it" ${CMAKE_COMMAND} --build ${folder}/build)
+# A cube of 0.2 m. The installed read_mesh reads it.
+set(cube ${folder}/cube.obj)
+file(WRITE ${cube} "v -.1 -.1 -.1\nv .1 -.1 -.1\nv .1 .1 -.1\nv -.1 .1 -.1\nv -.1 -.1 .1\nv .1 -.1 .1\nv .1 .1 .1\nv -.1 .1 .1
+f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n")
 foreach(program with_variables with_targets)
-  run("${program} gives wrong answers" ${folder}/build/${program})
+  run("${program} gives wrong answers" ${folder}/build/${program} ${cube})
 endforeach()
 
 # The example finds a path from its start to its goal.
@@ -107,12 +111,12 @@ endforeach()
 if(MODULE)
   set(ENV{PYTHONPATH} ${prefix}/lib/python3/dist-packages)
   run("the Python module gives wrong answers" ${CMAKE_COMMAND} -E env ${MODULE_ENVIRONMENT} ${PYTHON_EXECUTABLE} -B
-    ${CMAKE_CURRENT_LIST_DIR}/check_module.py ${prefix} ${ROBOT}.urdf)
+    ${CMAKE_CURRENT_LIST_DIR}/check_module.py ${prefix} ${ROBOT}.urdf ${cube})
 endif()
 
 # The programs compile the installed shaders: with a damaged shader the program fails and names it.
 file(WRITE ${prefix}/share/gpu_planning_scene/shaders/shader_constants.h "#error the installed one\n")
-execute_process(COMMAND ${folder}/build/with_variables RESULT_VARIABLE status ERROR_VARIABLE output OUTPUT_VARIABLE output)
+execute_process(COMMAND ${folder}/build/with_variables ${cube} RESULT_VARIABLE status ERROR_VARIABLE output OUTPUT_VARIABLE output)
 if(status EQUAL 0 OR NOT output MATCHES "the installed one")
   fail("the installed shaders are not used: ${status}\n${output}")
 endif()

@@ -1,5 +1,5 @@
-"""check_module.py PREFIX URDF: the installed Python module and the messages of the same name are one package, and the
-module uses the installed libraries."""
+"""check_module.py PREFIX URDF MESH: the installed Python module and the messages of the same name are one package, and the
+module uses the installed libraries and the installed reader of mesh files. MESH: a cube."""
 import pathlib
 import sys
 
@@ -7,10 +7,11 @@ from gpu_planning_scene.srv import CheckStates, CheckStatesRequest
 
 import gpu_planning_scene as gps
 
-prefix, urdf = sys.argv[1:]
+prefix, urdf, cube = sys.argv[1:]
 robot = gps.RobotModel.from_files(urdf)
 result = gps.StateChecker(gps.PlanningScene(robot), device="cpu").check(robot.default_state())
 assert result.valid.tolist() == [True], result.valid
+assert len(gps.Mesh.from_file(cube).triangles) == 12
 assert CheckStates._request_class is CheckStatesRequest
 assert pathlib.Path(gps.__file__).resolve().is_relative_to(pathlib.Path(prefix).resolve()), gps.__file__
 libraries = {line.split()[-1] for line in open("/proc/self/maps") if "libgpu_planning_scene" in line}

@@ -55,7 +55,7 @@ TEST(ChildMeshReader, GivesTheMeshThatThisProcessWouldRead)
   const TemporaryFolder folder;
   const std::string path = folder.write("a mesh.stl", binaryStl(sheet(30)));
   const Eigen::Vector3d scale(0.1, -1.0 / 3.0, 3.0);
-  const auto expected = MeshCache().load(path, scale);
+  const auto expected = readMeshFile(path, scale);
   MeshLimits limits;
   const auto mesh = MeshCache(childMeshReader(GPS_READ_MESH, limits)).load(path, scale);
   EXPECT_EQ(mesh->vertices, expected->vertices);
@@ -68,7 +68,7 @@ TEST(ChildMeshReader, TheMessageOfTheReaderIsTheError)
   const TemporaryFolder folder;
   const std::string path = folder.write("bad.stl", "solid of nothing");
   const std::string error = errorOfReading(GPS_READ_MESH, path, quick());
-  EXPECT_EQ(error, errorOf([&] { MeshCache().load(path, Eigen::Vector3d::Ones()); }));
+  EXPECT_EQ(error, errorOf([&] { readMeshFile(path, Eigen::Vector3d::Ones()); }));
   EXPECT_NE(errorOfReading(GPS_READ_MESH, folder.path("none.stl"), quick()).find("does not exist"), std::string::npos);
 }
 
@@ -134,8 +134,11 @@ TEST(ChildMeshReader, FilesThatAreOpenInThisProcessAreClosedInTheReader)
   ASSERT_GT(inherited, STDERR_FILENO);
   const std::string link = folder.path("link.stl");
   std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(inherited), link);
-  EXPECT_EQ(MeshCache().load(link, Eigen::Vector3d::Ones())->triangles.size(), 18u) << "open in this process";
+  EXPECT_EQ(readMeshFile(link, Eigen::Vector3d::Ones())->triangles.size(), 18u) << "open in this process";
   EXPECT_NE(errorOfReading(GPS_READ_MESH, link, quick()).find("does not exist"), std::string::npos);
+  const std::string by_default = errorOf([&] { MeshCache().load(link, Eigen::Vector3d::Ones()); });
+  EXPECT_NE(by_default.find("does not exist"), std::string::npos)
+      << "the default reads in another process: " << by_default;
   close(inherited);
 }
 

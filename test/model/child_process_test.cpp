@@ -113,5 +113,16 @@ TEST(ChildProcess, WithoutAStatusIsAnErrorThatNamesTheCause)
   EXPECT_EQ(std::string("mesh file '/x/exit.stl': the reader has ended, but ") + kNoStatus,
             errorOf([&] { childMeshReader(GPS_FAULTY_MESH_READER, limits)("/x/exit.stl", Eigen::Vector3d::Ones()); }));
 }
+
+TEST(ChildProcess, ThatHasSentAMeshOrAnErrorNeedsNoStatus)
+{
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  const std::string none = folder.write("b.obj", "v 0 0 0\n");
+  const IgnoredChildren ignored;
+  const ReadMesh read = childMeshReader(GPS_READ_MESH, {});
+  EXPECT_EQ(1u, read(mesh, Eigen::Vector3d::Ones())->triangles.size());
+  EXPECT_NE(std::string::npos, errorOf([&] { read(none, Eigen::Vector3d::Ones()); }).find("no triangles"));
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -274,6 +274,17 @@ class RobotModel(Case):
         with self.assertRaisesRegex(LookupError, "no crane"):
             gps.RobotModel.from_xml(WITH_MESH.format("package://crane/part.obj"), packages=fail)
 
+    def test_mesh_files_are_read_in_another_process(self):
+        """Another process does not have the files that are open here, so it cannot follow this link."""
+        with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryFile(mode="w+") as file:
+            file.write(MESH)
+            file.flush()
+            path = pathlib.Path(folder, "part.obj")
+            path.symlink_to(f"/proc/self/fd/{file.fileno()}")
+            self.assertEqual(path.read_text(encoding="utf-8"), MESH)
+            self.assert_one_line(gps.Error, "does not exist", gps.Mesh.from_file, path)
+            self.assert_one_line(gps.Error, "does not exist", gps.RobotModel.from_xml, WITH_MESH.format(path))
+
     def test_arrays_of_a_mesh_keep_its_memory(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "part.obj")

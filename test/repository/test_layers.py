@@ -8,7 +8,8 @@ from folders import ROOT
 LAYERS = {
     "model/text": [],
     "model": ["model/text"],
-    "model/files": ["model"],
+    "model/meshes": ["model"],
+    "model/files": ["model/meshes"],
     "model/description": ["model/files"],
     "gpu": ["model/files"],
     "scene": ["model"],

@@ -38,6 +38,24 @@ std::unique_ptr<StateChecker> openOne(std::shared_ptr<const PlanningScene> scene
     throw Error(std::string(error.what()) + "; or choose the device 'cpu', which needs no GPU");
   }
 }
+
+/// A CpuChecker in place of a device.
+class CpuInstead : public CpuChecker
+{
+ public:
+  CpuInstead(std::shared_ptr<const PlanningScene> scene, const CheckerOptions& options, std::string reason)
+    : CpuChecker(std::move(scene), options), reason_(std::move(reason))
+  {
+  }
+
+  std::string deviceWarning() const override
+  {
+    return "the GL device cannot check this scene, so the CPU checks all states; reason: " + reason_;
+  }
+
+ private:
+  std::string reason_;
+};
 }  // namespace
 
 std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> scene,
@@ -53,5 +71,20 @@ std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> s
   if (devices.size() == 1)
     return open(std::move(scene), devices.front());
   return std::make_unique<DeviceGroup>(scene, devices, open);
+}
+
+std::unique_ptr<StateChecker> openCheckerOrCpu(const std::shared_ptr<const PlanningScene>& scene,
+                                               const BatchCheckerOptions& options)
+{
+  try
+  {
+    return openChecker(scene, options);
+  }
+  catch (const Error& error)
+  {
+    if ((options.device != "auto" && options.device != "all") || !hasDevice())
+      throw;
+    return std::make_unique<CpuInstead>(scene, options, error.what());  // throws if the scene or an option is not valid
+  }
 }
 }  // namespace gpu_planning_scene::core

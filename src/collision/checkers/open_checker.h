@@ -11,4 +11,9 @@ namespace gpu_planning_scene::core
 /// fallback: if the device cannot be used, it throws an Error that says what to do.
 std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> scene,
                                           const BatchCheckerOptions& options);
+
+/// The same; but if "auto" or "all" find a device that cannot check the scene, for example because the scene has too
+/// many triangles, a CpuChecker checks it, and its deviceWarning says why.
+std::unique_ptr<StateChecker> openCheckerOrCpu(const std::shared_ptr<const PlanningScene>& scene,
+                                               const BatchCheckerOptions& options);
 }  // namespace gpu_planning_scene::core

@@ -1,8 +1,10 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 
+#include <dlfcn.h>
 #include <sys/wait.h>
 
 #include "gpu_planning_scene/error.h"
@@ -18,6 +20,17 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::size_t kMaxErrorBytes = 4096;
+constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
+
+MeshLimits noLimits()
+{
+  MeshLimits limits;
+  limits.seconds = 9e5;
+  limits.memory = kNoLimit;
+  limits.file = kNoLimit;
+  limits.triangles = 0x7fffffff;  // as many as a mesh can have
+  return limits;
+}
 
 std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLimits& limits, const std::string& path,
                                         const Eigen::Vector3d& scale)
@@ -32,7 +45,14 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
                {limits.seconds, maxMeshBytes(limits.triangles), kMaxErrorBytes});
   const int status = answer.status;
   if (!answer.late && !answer.too_long && !answer.has_status)
+  {
+    // The reader writes its answer as its last action, so a complete answer needs no status.
+    if (!answer.err.empty())
+      throw Error(onOneLine(answer.err));
+    if (!answer.out.empty())
+      return meshFromBytes(answer.out, path, limits.triangles);
     throw Error(file + "the reader has ended, but " + kNoStatus);
+  }
   if (answer.late || (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM)))
   {
     std::ostringstream seconds;
@@ -51,6 +71,8 @@ std::shared_ptr<const Mesh> readInChild(const std::string& program, const MeshLi
     case 1:
       throw Error(onOneLine(answer.err));
     case 3:
+      if (limits.memory == kNoLimit)
+        throw Error(file + "there is not enough memory to read it");
       throw Error(file + "reading it needs more than " + megabytes(limits.memory) + " of memory (~mesh/memory)");
     default:
       throw Error(file + "the reader failed with exit code " + std::to_string(WEXITSTATUS(status)));
@@ -66,8 +88,25 @@ ReadMesh childMeshReader(std::string program, const MeshLimits& limits)
   { return readInChild(program, limits, path, scale); };
 }
 
-std::string meshReaderBesideThisProgram()
+/// The folder relative to the file of this library, so that an installation can be moved.
+std::string meshReaderProgram()
 {
-  return (std::filesystem::read_symlink("/proc/self/exe").parent_path() / "read_mesh").string();
+  namespace fs = std::filesystem;
+  Dl_info library;
+  fs::path installed;
+  if (dladdr(reinterpret_cast<const void*>(&meshReaderProgram), &library) != 0)
+    installed = (fs::canonical(library.dli_fname).parent_path() / GPS_PROGRAMS_FROM_LIBRARY).lexically_normal();
+  std::error_code unreadable;
+  for (const fs::path& folder : {installed, fs::path(GPS_BUILT_PROGRAMS)})
+    if (fs::exists(folder / "read_mesh", unreadable))
+      return (folder / "read_mesh").string();
+  throw Error("the program read_mesh, which reads mesh files, is not in " + installed.string() +
+              "; install the whole package, or build the target read_mesh");
+}
+
+ReadMesh defaultMeshReader()
+{
+  return [](const std::string& path, const Eigen::Vector3d& scale)
+  { return readInChild(meshReaderProgram(), noLimits(), path, scale); };
 }
 }  // namespace gpu_planning_scene::core

@@ -26,7 +26,7 @@ MeshAccess meshAccessFromParameters(const ros::NodeHandle& own)
   limits.file = countParameter(own, "mesh/file_size", limits.file, 1, std::size_t{1} << 52);
   limits.triangles = countParameter(own, "limits/triangles_of_mesh", limits.triangles, 1, kNoLimit);
   MeshAccess access;
-  access.read = childMeshReader(meshReaderBesideThisProgram(), limits);
+  access.read = childMeshReader(meshReaderProgram(), limits);
   AllowedRoots allowed;
   XmlRpcValue roots;
   if (own.getParam("mesh/roots", roots))

@@ -354,5 +354,20 @@ TEST(SeveralDevices, AnswerLikeOne)
   options.device = "software+no such device";
   EXPECT_NE(errorOf([&] { openChecker(test.scene, options); }).find("no such device"), std::string::npos);
 }
+
+TEST(OpenCheckerOrCpu, TheCpuTakesASceneThatTheDeviceCannotCheck)
+{
+  const TestScene& test = testScene("arm_boxes");
+  const std::vector<double> states = test.randomStates(100, 3);
+  BatchCheckerOptions options;
+  options.shader_folder =
+      "/no/shaders";  // as a device whose limits the scene exceeds, it throws when it gets the scene
+  const auto checker = openCheckerOrCpu(test.scene, options);
+  EXPECT_EQ(checker->deviceName(), "CPU");
+  EXPECT_NE(checker->deviceWarning().find("the CPU checks all states; reason: "), std::string::npos);
+  EXPECT_EQ(checker->check(states.data(), 100).valid, CpuChecker(test.scene).check(states.data(), 100).valid);
+  options.device = "software";
+  EXPECT_NE(errorOf([&] { openCheckerOrCpu(test.scene, options); }), "") << "the user has named this device";
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -1,4 +1,5 @@
-// A robot of one joint swings a bar through a box. The CPU and the GPU must agree on the angles that hit it.
+// A robot of one joint swings a bar through the mesh of a file. The CPU and the GPU must agree on the angles that hit
+// it.
 #include <cstdio>
 
 #include <gpu_planning_scene/batch_checker.h>
@@ -10,7 +11,7 @@
 
 using namespace gpu_planning_scene::core;
 
-int main()
+int main(int, char** argv)
 try
 {
   const auto robot = RobotModel::fromXml(R"(<robot name="bar"><link name="base"/><link name="bar"><collision>
@@ -21,7 +22,7 @@ try
   WorldObject box;
   box.id = "box";
   box.pose.translation() = Eigen::Vector3d(0.0, 0.6, 0.0);
-  box.shapes.push_back({Box{Eigen::Vector3d(0.2, 0.2, 0.2)}, Eigen::Isometry3d::Identity()});
+  box.shapes.push_back({MeshCache().load(argv[1], Eigen::Vector3d::Ones()), Eigen::Isometry3d::Identity()});
   scene->objects.push_back(box);
 
   const double angles[] = {0.0, 1.57, 3.14, -1.57, 1.5};
