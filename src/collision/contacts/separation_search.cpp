@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 
 /// Parts of a pair from which directions are taken.
 constexpr std::size_t kMaxParts = 256;
-constexpr std::size_t kMaxFaceNormals = 6;
+constexpr std::size_t kMaxFaceNormals = 4;
 /// Pairs of shapes from which directions are taken.
 constexpr std::size_t kMaxPairs = 8;
 /// A search along a direction begins at this depth.

@@ -37,7 +37,7 @@ TEST(Contacts, OfSpheresIsOneBetweenTheirCentres)
   const auto contacts = held.contacts({1.25, 2.0, 3.0});
   ASSERT_EQ(contacts.size(), 1u);
   EXPECT_EQ(contacts[0].bodies, (BodyPair{kObject, held.body()}));
-  EXPECT_NEAR(contacts[0].depth, 0.05, 1e-9);
+  EXPECT_NEAR(contacts[0].depth, 0.05, 1e-8);
   EXPECT_LT((contacts[0].normal - Vector3d::UnitX()).norm(), 1e-9) << "from the object to what is held";
   EXPECT_NEAR(contacts[0].point.x(), 1.175, 0.026);
   EXPECT_LT((contacts[0].point - Vector3d(contacts[0].point.x(), 2.0, 3.0)).norm(), 1e-9);
@@ -98,7 +98,7 @@ TEST(Contacts, OfAllKindsOfShapesPointApartAndAreAsDeepAsTheOverlap)
         EXPECT_LE(contact.point.x(), 0.1 + 1e-5);
       }
       EXPECT_GT(contacts[0].normal.x(), 0.8);
-      EXPECT_GT(contacts[0].depth, 0.001) << "of meshes FCL tells the depths of triangles";
+      EXPECT_GT(contacts[0].depth, 0.001) << "the bodies overlap by more than a triangle does";
     }
 }
 
@@ -114,7 +114,8 @@ TEST(Contacts, OfContainedBodiesHaveTheExitDepth)
     ASSERT_EQ(contacts.size(), 1u);
     EXPECT_NEAR(contacts[0].depth, 0.25, 2e-6);
     EXPECT_LT((contacts[0].normal - Vector3d::UnitX()).norm(), 1e-9);
-    EXPECT_LT((contacts[0].point - Vector3d(inner_held ? 0.3 : 0.0, 0.0, 0.0)).norm(), 1e-6);
+    const Vector3d center(inner_held ? 0.3 : 0.0, 0.0, 0.0);
+    EXPECT_LE((contacts[0].point - center).cwiseAbs().maxCoeff(), 0.05 + 1e-6) << "a point of the inner box";
   }
 }
 
@@ -128,8 +129,9 @@ TEST(Contacts, OfTouchingBodiesHaveNoDepth)
     if (std::holds_alternative<std::shared_ptr<const Mesh>>(shape) && contacts.empty())
       continue;  // the mesh of a round shape lies inside the true shape and touches nothing
     ASSERT_FALSE(contacts.empty());
-    EXPECT_LT(contacts[0].depth, 1e-3);
-    EXPECT_NEAR(contacts[0].point.x(), 0.1, 1e-3);
+    EXPECT_GE(contacts[0].depth, 0.0);
+    EXPECT_LT(contacts[0].depth, 1e-8);
+    EXPECT_NEAR(contacts[0].point.x(), 0.1, 1e-6);
   }
 }
 
@@ -157,7 +159,7 @@ TEST(Contacts, WithAHalfSpaceIsAtTheLowestPoint)
     const Held held(shape, {{HalfSpace{Vector3d::UnitZ(), 0.5}, at(0, 0, 0)}});
     const auto contacts = held.contacts({3.0, 4.0, 0.5 + low - 0.01});
     ASSERT_EQ(contacts.size(), 1u);
-    const double tolerance = name.find("mesh") == 0 ? 2e-4 : 1e-12;
+    const double tolerance = name.find("mesh") == 0 ? 2e-4 : 1e-8;
     EXPECT_NEAR(contacts[0].depth, 0.01, tolerance);
     EXPECT_NEAR(contacts[0].point.z(), 0.49, tolerance);
     EXPECT_LT((contacts[0].normal - Vector3d::UnitZ()).norm(), 1e-9) << "from the half-space to what is held";

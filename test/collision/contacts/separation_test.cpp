@@ -336,5 +336,89 @@ TEST(Separation, OfAHalfSpaceIsAlongItsNormal)
     }
   }
 }
+
+/// The angle of two unit vectors, in degrees.
+double degreesBetween(const Vector3d& a, const Vector3d& b)
+{
+  return std::atan2(a.cross(b).norm(), a.dot(b)) * 180.0 / kPi;
+}
+
+TEST(Separation, OfACylinderOnACubeMeshIsAlongTheFace)
+{
+  const HeldShape held(Cylinder{0.05, 0.1}, {{tessellate(Box{{1.0, 1.0, 1.0}}).mesh, Isometry3d::Identity()}});
+  const auto contacts = held.contacts({0.53, 0.0, 0.0});
+  ASSERT_GE(contacts.size(), 2u);
+  for (const Contact& contact : contacts)
+  {
+    EXPECT_LT((contact.normal - Vector3d::UnitX()).norm(), 1e-6) << "from the cube to the cylinder";
+    EXPECT_NEAR(contact.depth, 0.02, 1e-8);
+    EXPECT_LE(contact.point.x(), 0.5 + 1e-6);
+    EXPECT_GE(contact.point.x(), 0.48 - 1e-6);
+  }
+}
+
+/// A held shape of each kind collides with a solid and with its mesh. Where the normal of the solid is that of a flat
+/// face, the mesh has the same normal and depth.
+TEST(Separation, OfAMeshIsThatOfItsSolidOnFlatFaces)
+{
+  for (const Shape& solid : {Shape(Box{{0.5, 0.3, 0.4}}), Shape(Cylinder{0.25, 0.4})})
+    for (const Kind& kind : kinds())
+    {
+      Random random(kSeed);
+      SCOPED_TRACE(kind.name + ", seed " + std::to_string(kSeed));
+      const Shape shape = kind.make(random);
+      const PlacedShape object = {solid, randomPose(random, 1.0)};
+      const StateInspector of_solid = HeldShape(shape, {object}).inspector();
+      const StateInspector of_mesh = HeldShape(shape, {{tessellate(solid).mesh, object.pose}}).inspector();
+      CollidingPoses colliding(shape, object, 0.0, kSeed);
+      std::size_t flat = 0;
+      for (int i = 0; i < repetitions(15, 1000); ++i)
+      {
+        const auto pose = colliding.next();
+        ASSERT_TRUE(pose.has_value());
+        const std::vector<double> state = HeldShape::state(*pose);
+        const auto expected = of_solid.contacts(state.data(), "", 1, 0);
+        const auto found = of_mesh.contacts(state.data(), "", 1, 0);
+        ASSERT_EQ(1u, expected.size());
+        const Vector3d local = (object.pose.linear().transpose() * expected.front().normal).cwiseAbs();
+        const bool is_flat =
+            std::holds_alternative<Box>(solid) ? local.maxCoeff() > 1.0 - 1e-9 : local.z() > 1.0 - 1e-9;
+        if (!is_flat || !kind.is_convex)
+          continue;
+        ++flat;
+        ASSERT_EQ(1u, found.size());
+        EXPECT_LE(degreesBetween(expected.front().normal, found.front().normal), 1.0);
+        EXPECT_NEAR(expected.front().depth, found.front().depth, 1e-6);
+      }
+      if (kind.is_convex)
+        EXPECT_GT(flat, 0u);
+    }
+}
+
+TEST(Separation, OfABodyOfSeveralShapesFreesAllOfThem)
+{
+  // A floor of cubes, as an octomap has it.
+  std::vector<PlacedShape> cubes;
+  for (int i = -20; i < 20; ++i)
+    for (int j = -20; j < 20; ++j)
+      cubes.push_back({Box{{0.02, 0.02, 0.02}}, at(0.02 * i + 0.01, 0.02 * j + 0.01, -0.01)});
+  // Two rods that cross the floor's box from below.
+  cubes.push_back({Box{{0.05, 0.05, 0.4}}, at(0.3, 0.0, -0.2)});
+  cubes.push_back({Box{{0.05, 0.05, 0.4}}, at(-0.3, 0.0, -0.2)});
+  const HeldShape held(cubes,
+                       {{Box{{0.1, 0.1, 0.1}}, at(0.013, 0.007, 0.045)}, {Cylinder{0.02, 0.9}, at(0, 0, -0.21)}});
+  const StateInspector inspector = held.inspector();
+  const auto contacts = inspector.contacts(HeldShape::state(Vector3d(0, 0, 0)).data(), "", 100, 1);
+  ASSERT_EQ(2u, contacts.size());
+  for (const Contact& contact : contacts)
+  {
+    const Vector3d place = contact.depth * contact.normal;
+    for (const Contact& other : inspector.contacts(HeldShape::state(place).data(), "", 100, 1))
+      EXPECT_NE(contact.bodies, other.bodies) << "depth " << contact.depth << " along " << contact.normal.transpose();
+  }
+  const Contact& of_box = contacts[contacts[0].bodies[0] == HeldShape::kObject ? 0 : 1];
+  EXPECT_NEAR(of_box.depth, 0.005, 1e-7);
+  EXPECT_LT((of_box.normal + Vector3d::UnitZ()).norm(), 1e-6) << "the held floor goes down";
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core
