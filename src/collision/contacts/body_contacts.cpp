@@ -141,7 +141,8 @@ std::array<Vector3d, 2> nearestPointsOf(const ContactShape& a, const ContactShap
     return {hulls.on_a, hulls.on_b};
   }
   constexpr std::size_t kMost = 64;
-  std::array<Vector3d, 2> best;
+  const Vector3d none = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  std::array<Vector3d, 2> best = {none, none};
   double least = std::numeric_limits<double>::infinity();
   for (const Crossing& part : crossingsOf(a, b, distance + kDistanceError, kMost))
   {
