@@ -60,7 +60,8 @@ struct NearestPairs
 class StateInspector
 {
  public:
-  /// `previous`: an inspector of an earlier scene. Its trees are reused. It may be destroyed afterwards. Throws Error if the scene is not valid.
+  /// `previous`: an inspector of an earlier scene. Its trees are reused. It may be destroyed afterwards. Throws Error
+  /// if the scene is not valid.
   explicit StateInspector(std::shared_ptr<const PlanningScene> scene, const StateInspector* previous = nullptr);
   ~StateInspector();
 
@@ -72,7 +73,7 @@ class StateInspector
   /// depth; the further contacts of all pairs follow. `state`: one value per variable. Throws Error for an unknown
   /// group, or a value that is not finite or beyond Variable::largest. The contacts of a pair differ only in their
   /// points. The first point is where the bodies overlap most. The further points are on the curve where the surfaces
-  /// cross. A pair has no further points if the surfaces do not cross, and with a half-space one for each shape.
+  /// cross. Only pairs with a mesh, pairs of boxes, and several shapes over a half-space have further points.
   std::vector<Contact> contacts(const double* state, const std::string& group, std::size_t max_contacts,
                                 std::size_t max_per_pair) const;
 

@@ -89,12 +89,16 @@ Vector3d deepestPoint(const ContactPair& pair, CpuShapePair::Scratch& scratch)
                            { return (p - mean).squaredNorm() < (q - mean).squaredNorm(); });
 }
 
-/// Points where the surfaces of two shapes cross.
+/// Points where the surfaces of two shapes cross. The surfaces of round primitives have no exact triangles, so they
+/// give none.
 std::vector<Vector3d> crossingPoints(const ContactPair& pair, std::size_t most)
 {
-  const bool is_mesh = pair.a.tree->mesh || pair.b.tree->mesh;
-  const std::vector<Crossing> parts =
-      is_mesh ? crossingsOf(pair.a, pair.b, 0.0, most) : triangleCrossingsOf(pair.a, pair.b, most);
+  const auto is_box = [](const ContactShape& shape) { return std::holds_alternative<Box>(shape.tree->shape); };
+  std::vector<Crossing> parts;
+  if (pair.a.tree->mesh || pair.b.tree->mesh)
+    parts = crossingsOf(pair.a, pair.b, 0.0, most);
+  else if (is_box(pair.a) && is_box(pair.b))
+    parts = crossingsOfBoxes(pair.a, pair.b, most);
   std::vector<Vector3d> points;
   for (const Crossing& part : parts)
     points.push_back(middleOf(pointsOf(pair.a, pair.b, part)));

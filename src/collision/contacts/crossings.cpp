@@ -202,7 +202,7 @@ std::vector<Crossing> crossingsOf(const ContactShape& a, const ContactShape& b, 
   return found;
 }
 
-std::vector<Crossing> triangleCrossingsOf(const ContactShape& a, const ContactShape& b, std::size_t most)
+std::vector<Crossing> crossingsOfBoxes(const ContactShape& a, const ContactShape& b, std::size_t most)
 {
   if (a.tree->triangles.empty() || b.tree->triangles.empty())
     return {};

@@ -26,9 +26,8 @@ struct Crossing
 /// shapes must be a mesh. A triangle inside a primitive is within its reach.
 std::vector<Crossing> crossingsOf(const ContactShape& a, const ContactShape& b, double reach, std::size_t most);
 
-/// The parts of two primitives' triangles that meet, at most `most` of them; none if a tree has no triangles. The
-/// triangles lie inside the solids.
-std::vector<Crossing> triangleCrossingsOf(const ContactShape& a, const ContactShape& b, std::size_t most);
+/// The triangles of two boxes that meet, at most `most` pairs; none if a tree has no triangles.
+std::vector<Crossing> crossingsOfBoxes(const ContactShape& a, const ContactShape& b, std::size_t most);
 
 /// Points of the two parts. They are equal up to 1e-8 m if the parts meet, and otherwise the nearest points.
 std::array<Eigen::Vector3d, 2> pointsOf(const ContactShape& a, const ContactShape& b, const Crossing& crossing);
