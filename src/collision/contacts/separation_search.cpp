@@ -18,13 +18,13 @@ using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
 /// Parts of a pair from which directions are taken.
-constexpr std::size_t kMaxParts = 256;
+constexpr std::size_t kMaxMeetingParts = 256;
 constexpr std::size_t kMaxFaceNormals = 4;
 /// Pairs of shapes from which directions are taken.
 constexpr std::size_t kMaxPairs = 8;
 /// A search along a direction begins at this depth.
 constexpr double kFirstDepth = 1e-7;  // metres
-constexpr double kGrowth = 4.0;
+constexpr double kDepthGrowth = 4.0;
 /// Exceeds the error of pairClearance.
 constexpr double kDistanceAccuracy = 1.1e-6;  // metres
 /// Directions that are not better by this share are not distinguished.
@@ -77,7 +77,7 @@ class TranslationSearch
     while (high < most && !isApart(normal, high))
     {
       low = high;
-      high *= kGrowth;
+      high *= kDepthGrowth;
     }
     if (high >= most)
     {
@@ -223,7 +223,7 @@ Separation findSeparation(const std::vector<ContactPair>& pairs, const std::vect
   {
     const ContactPair& pair = pairs[colliding[i]];
     search.offer(hullSeparation(pair.a, pair.b).normal);
-    const std::vector<Crossing> parts = meetingParts(pair, kMaxParts, scratch);
+    const std::vector<Crossing> parts = meetingParts(pair, kMaxMeetingParts, scratch);
     if (parts.empty())
       continue;
     const Vector3d between = directionOfParts(pair, parts);
