@@ -14,13 +14,14 @@
 
 namespace gpu_planning_scene::core
 {
-/// A contact point of two colliding bodies.
+/// A contact of two colliding bodies. Moving the second body along the normal by the depth ends their collision. See
+/// ContactInformation.msg for the depth and the point of each kind of bodies.
 struct Contact
 {
   BodyPair bodies;         ///< body indices, ascending
-  Eigen::Vector3d point;   ///< metres, in the planning frame
+  Eigen::Vector3d point;   ///< metres, in the planning frame; belongs to both bodies, up to 1e-6 m
   Eigen::Vector3d normal;  ///< unit length, in the planning frame, from the first body to the second
-  double depth = 0.0;      ///< penetration in metres; for padded pairs it includes the required distance
+  double depth = 0.0;      ///< metres, above 0; for padded pairs it includes the required distance
 };
 
 /// Clearance of a state, in metres beyond the required distance (see StateChecker).
@@ -39,11 +40,10 @@ struct Clearance
 struct NearestPair
 {
   BodyPair bodies = kNoPair;  ///< body indices, ascending; kNoPair if no pair is checked
-  /// Metres beyond the required distance, as Clearance. In collision: minus the depth of the pair's deepest contact, or
-  /// 0 if the pair only touches.
+  /// Metres beyond the required distance, as Clearance. In collision: minus the depth of the pair's contacts.
   double distance = std::numeric_limits<double>::infinity();
   /// The nearest points of the two surfaces without padding, in the planning frame. In collision, both are the point of
-  /// the deepest contact. They come from FCL, and are correct to 3e-4 m; NaN where FCL does not find such points.
+  /// the deepest contact. Their distance is correct to 3e-6 m. NaN if no pair is checked.
   std::array<Eigen::Vector3d, 2> points = {Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()),
                                            Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())};
 };
@@ -60,8 +60,8 @@ struct NearestPairs
 class StateInspector
 {
  public:
-  /// `previous`: an inspector of an earlier scene. Its trees, also those for FCL, are reused. It may be destroyed
-  /// afterwards. Throws Error if the scene is not valid.
+  /// `previous`: an inspector of an earlier scene. Its trees are reused. It may be destroyed afterwards. Throws Error
+  /// if the scene is not valid.
   explicit StateInspector(std::shared_ptr<const PlanningScene> scene, const StateInspector* previous = nullptr);
   ~StateInspector();
 
@@ -69,17 +69,15 @@ class StateInspector
   const std::shared_ptr<const PlanningScene>& scene() const;
 
   /// Contacts of the pairs that collide by the exact checker: at most `max_contacts`, and at most `max_per_pair` for
-  /// each pair (0: no limit per pair). The deepest contact of each pair comes first, then the others by depth. `state`:
-  /// one value per variable. Throws Error for an unknown group, or a value that is not finite or beyond
-  /// Variable::largest. Points, normals and depths come from FCL, except for half-spaces: their single contact is the
-  /// deepest point of the other shape. A pair also has a single contact if FCL finds no crossing surfaces. If the
-  /// bodies touch, or are within the required distance, this contact is at FCL's nearest points. If one body is inside
-  /// the other, this contact is at the inner body. The depth of this contact is then the distance by which the inner
-  /// body must move, away from the centre of the other body, to come free.
+  /// each pair (0: no limit per pair). No pair has more than 256. The deepest contact of each pair comes first, by
+  /// depth; the further contacts of all pairs follow. `state`: one value per variable. Throws Error for an unknown
+  /// group, or a value that is not finite or beyond Variable::largest. The contacts of a pair differ only in their
+  /// points. The first point is where the bodies overlap most. The further points are on the curve where the surfaces
+  /// cross. Only pairs with a mesh, pairs of boxes, and several shapes over a half-space have further points.
   std::vector<Contact> contacts(const double* state, const std::string& group, std::size_t max_contacts,
                                 std::size_t max_per_pair) const;
 
-  /// Clearance by the exact checker's tests, without FCL's distances. Throws Error as contacts() does.
+  /// Clearance by the exact checker's tests. Throws Error as contacts() does.
   Clearance clearance(const double* state, const std::string& group) const;
 
   /// The clearances of `count` states, computed on all cores. `states`: one row per state. Throws Error as contacts()

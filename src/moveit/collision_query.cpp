@@ -84,7 +84,7 @@ bool CollisionQuery::isRefused(const ShapeInstance& a, const ShapeInstance& b)
 {
   const collision_detection::DecideContactFn decider = filter_.decider(a.body, b.body);
   bool is_refused = false;
-  for (const core::ShapeContact& found : contactsOf(a, b, std::numeric_limits<std::size_t>::max(), 0, scratch_))
+  for (const core::ShapeContact& found : contactsOf(a, b, std::numeric_limits<std::size_t>::max(), scratch_))
   {
     Contact contact = contactBetween(a, b, found);
     if (decider && decider(contact))
@@ -119,7 +119,7 @@ void CollisionQuery::addCollision(const ShapeInstance& a, const ShapeInstance& b
     ROS_INFO_STREAM_NAMED(kLogName, "'" << *a.body.name << "' collides with '" << *b.body.name << "'");
   const std::size_t wanted = with_contacts ? wantedContacts(a, b) : 0;
   if (wanted > 0)
-    for (const core::ShapeContact& contact : contactsOf(a, b, wanted, 0, scratch_))
+    for (const core::ShapeContact& contact : contactsOf(a, b, wanted, scratch_))
       addContact(a, b, contact);
   if (request_.cost)
     addCostSource(a, b);

@@ -2,7 +2,7 @@
 
 #include <moveit/collision_detection/collision_common.h>
 
-#include "collision/contacts/fcl_contacts.h"
+#include "collision/contacts/body_contacts.h"
 #include "moveit/exact_pair.h"
 #include "moveit/pair_filter.h"
 

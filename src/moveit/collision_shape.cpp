@@ -5,6 +5,7 @@
 
 #include <octomap/OcTree.h>
 
+#include "collision/contacts/contact_shape.h"
 #include "gpu_planning_scene/error.h"
 #include "model/zero_size.h"
 #include "scene/message_values.h"
@@ -132,25 +133,9 @@ std::shared_ptr<const CollisionShape> CollisionShape::leaf(unsigned depth) const
   return std::make_shared<const CollisionShape>(octree_->getNodeSize(static_cast<int>(depth)));
 }
 
-const core::FclGeometry& CollisionShape::fclModel() const
+bool CollisionShape::isConvex() const
 {
-  std::call_once(model_made_,
-                 [this]
-                 {
-                   const core::Shape& shape = tree_->shape;
-                   model_ = core::makeFclSolid(shape, tree_->mesh ? core::tessellate(shape) : core::Tessellation());
-                 });
-  return model_;
-}
-
-const core::FclGeometry& CollisionShape::fclTriangles() const
-{
-  std::call_once(triangles_made_,
-                 [this]
-                 {
-                   const core::Tessellation tessellation = core::tessellate(tree_->shape);
-                   triangles_ = core::makeFclSolid(tessellation.mesh, tessellation);
-                 });
-  return triangles_;
+  std::call_once(convexity_known_, [this] { is_convex_ = core::isConvexSolid(*tree_); });
+  return is_convex_;
 }
 }  // namespace gpu_planning_scene::detector

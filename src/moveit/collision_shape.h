@@ -7,7 +7,6 @@
 
 #include <geometric_shapes/shapes.h>
 
-#include "collision/contacts/fcl_models.h"
 #include "collision/exact/cpu_tree.h"
 #include "gpu_planning_scene/shapes.h"
 
@@ -47,10 +46,8 @@ class CollisionShape
   /// Octrees: the cube of the leaves at a depth. A map that is loaded into an octree can change its resolution.
   std::shared_ptr<const CollisionShape> leaf(unsigned depth) const;
 
-  /// Solids: FCL's model, for contact points and nearest points. Made when it is first used.
-  const core::FclGeometry& fclModel() const;
-  /// Solids: FCL's model of the shape's triangles. For nearest points where FCL fails for the solid itself.
-  const core::FclGeometry& fclTriangles() const;
+  /// Solids: see core::isConvexSolid. Computed when it is first used.
+  bool isConvex() const;
 
  private:
   CollisionShape() = default;
@@ -64,10 +61,8 @@ class CollisionShape
   std::shared_ptr<const octomap::OcTree> octree_;
   std::vector<std::shared_ptr<const CollisionShape>> leaves_;  // by depth; the root has depth 0
   double leaf_resolution_ = 0.0;                               // of leaves_
-  mutable std::once_flag model_made_;
-  mutable std::once_flag triangles_made_;
-  mutable core::FclGeometry model_;
-  mutable core::FclGeometry triangles_;
+  mutable std::once_flag convexity_known_;
+  mutable bool is_convex_ = false;
 };
 
 using CollisionShapePtr = std::shared_ptr<const CollisionShape>;

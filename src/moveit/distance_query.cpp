@@ -10,7 +10,6 @@
 #include "moveit/pair_contacts.h"
 
 // The distance of a pair is that of the exact tests: the least x for which the pair collides with its paddings plus x.
-// FCL gives the points.
 namespace gpu_planning_scene::detector
 {
 namespace
@@ -99,7 +98,7 @@ DistanceResultsData DistanceQuery::dataOf(const ShapeInstance& a, const ShapeIns
   data.body_types[1] = b.body.type;
   if (collides && (request_.enable_signed_distance || request_.enable_nearest_points || request_.compute_gradient))
   {
-    const core::ShapeContact deepest = contactsOf(a, b, 1, core::kMaxOfPair, scratch_).front();
+    const core::ShapeContact deepest = contactsOf(a, b, 1, scratch_).front();
     if (request_.enable_signed_distance)
       data.distance = -deepest.depth;
     data.nearest_points[0] = data.nearest_points[1] = deepest.point;

@@ -20,12 +20,6 @@ using Eigen::Vector3d;
 // Exceeds the rounding of boxes and poses.
 constexpr double kBoxMargin = 1e-9;  // metres
 
-const core::CpuShapePair& exactTest()
-{
-  static const core::CpuShapePair test(nullptr);
-  return test;
-}
-
 /// The bounds of a solid in the frame of an octree, without padding.
 AlignedBox3d boundsIn(const ShapeInstance& octree, const ShapeInstance& solid)
 {
@@ -83,6 +77,12 @@ bool halfSpacesMeet(const ShapeInstance& a, const ShapeInstance& b, double margi
          -first.offset - second.offset <= a.padding + b.padding + margin + core::kSlack;
 }
 }  // namespace
+
+const core::CpuShapePair& exactTest()
+{
+  static const core::CpuShapePair test(nullptr);
+  return test;
+}
 
 core::PlacedHalfSpace placedHalfSpace(const ShapeInstance& instance)
 {

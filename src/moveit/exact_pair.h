@@ -13,6 +13,9 @@ namespace gpu_planning_scene::detector
 /// Work space of one thread.
 using PairScratch = core::CpuShapePair::Scratch;
 
+/// The exact test of two shapes.
+const core::CpuShapePair& exactTest();
+
 /// Whether the oriented boxes of two shape instances overlap, grown by their paddings. Half-spaces, octrees and faulty
 /// shapes have no boxes and always overlap.
 bool boxesOverlap(const ShapeInstance& a, const ShapeInstance& b);

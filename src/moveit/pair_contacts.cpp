@@ -5,10 +5,8 @@
 #include <limits>
 
 #include "collision/exact/cpu_forest.h"
-#include "moveit/log.h"
 
-// FCL computes the points; the exact tests have decided that the instances collide, or how far they are from each
-// other.
+// The exact tests have decided that the instances collide, or how far they are from each other.
 namespace gpu_planning_scene::detector
 {
 namespace
@@ -17,17 +15,20 @@ using core::ShapeContact;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// FCL's triangles of a curved solid are off by up to its sagitta, 1e-4 m, on both sides.
-constexpr double kTriangleTolerance = 3e-4;  // metres
+// Contacts of this many leaves of an octree are computed.
+constexpr std::size_t kMaxLeaves = 256;
+
+core::ContactShape contactShape(const CollisionShape& shape, const Isometry3d& pose)
+{
+  return {&shape.tree(), pose, shape.isConvex()};
+}
 
 std::vector<ShapeContact> contactsOfSolids(const CollisionShape& a, const Isometry3d& pose_a, const CollisionShape& b,
                                            const Isometry3d& pose_b, double required, std::size_t most,
                                            PairScratch& scratch)
 {
-  const auto forest = std::make_shared<const core::CpuForest>(
-      std::vector<std::shared_ptr<const core::CpuTree>>{a.sharedTree(), b.sharedTree()});
-  return core::contactsOf({0, pose_a, a.fclModel()}, {1, pose_b, b.fclModel()}, required, *forest,
-                          core::CpuShapePair(forest), scratch, most);
+  return core::contactsOf({{contactShape(a, pose_a), contactShape(b, pose_b), required}}, {0}, exactTest(), scratch,
+                          most);
 }
 
 void turn(std::vector<ShapeContact>& contacts)
@@ -46,10 +47,10 @@ std::vector<ShapeContact> contactsOfSolid(const ShapeInstance& a, const ShapeIns
   if (b.shape->kind() == ShapeKind::HalfSpace)
   {
     const core::PlacedHalfSpace half_space = placedHalfSpace(b);
-    return {core::contactOf(*a.pose, a.shape->tree().shape, {0, half_space.normal, half_space.offset}, required)};
+    return {core::contactWithHalfSpace(contactShape(*a.shape, *a.pose), half_space, required)};
   }
   std::vector<ShapeContact> contacts;
-  for (const Leaf& leaf : collidingLeaves(b, a, most, scratch))
+  for (const Leaf& leaf : collidingLeaves(b, a, kMaxLeaves, scratch))
   {
     const std::vector<ShapeContact> found =
         contactsOfSolids(*a.shape, *a.pose, *leaf.shape, leaf.pose, required, most, scratch);
@@ -87,8 +88,7 @@ NearestPoints nearestPointsOfSolid(const ShapeInstance& a, const ShapeInstance& 
   if (b.shape->kind() == ShapeKind::HalfSpace)
   {
     const core::PlacedHalfSpace half_space = placedHalfSpace(b);
-    const Vector3d point =
-        core::contactOf(*a.pose, a.shape->tree().shape, {0, half_space.normal, half_space.offset}, 0.0).point;
+    const Vector3d point = core::contactWithHalfSpace(contactShape(*a.shape, *a.pose), half_space, 0.0).point;
     return {point, point - (half_space.normal.dot(point) - half_space.offset) * half_space.normal};
   }
   const std::shared_ptr<const void> nobody;  // `b` owns its shape
@@ -99,29 +99,17 @@ NearestPoints nearestPointsOfSolid(const ShapeInstance& a, const ShapeInstance& 
     if (!nearestLeaf(b, a, least, leaf, scratch))
       return {a.bounds.center(), a.bounds.center()};
   }
-  auto found =
-      core::fclNearestPoints({0, *a.pose, a.shape->fclModel()}, {1, leaf.pose, leaf.shape->fclModel()}, distance);
-  if (!found)
-    found = core::fclNearestPoints({0, *a.pose, a.shape->fclTriangles()}, {1, leaf.pose, leaf.shape->fclTriangles()},
-                                   distance, kTriangleTolerance);
-  if (found)
-    return {(*found)[0], (*found)[1]};
-  static LogLimit limit;
-  if (limit.allows())
-    ROS_WARN_STREAM_NAMED(kLogName, "FCL finds no nearest points of '"
-                                        << *a.body.name << "' and '" << *b.body.name
-                                        << "'; the points given are in their bounding boxes");
-  const Eigen::AlignedBox3d box = core::boundsOf(leaf.shape->tree(), leaf.pose);
-  const Vector3d on_b = a.bounds.center().cwiseMax(box.min()).cwiseMin(box.max());
-  return {on_b.cwiseMax(a.bounds.min()).cwiseMin(a.bounds.max()), on_b};
+  const auto [on_a, on_b] =
+      core::nearestPointsOf(contactShape(*a.shape, *a.pose), contactShape(*leaf.shape, leaf.pose), distance);
+  return {on_a, on_b};
 }
 }  // namespace
 
 std::vector<ShapeContact> contactsOf(const ShapeInstance& a, const ShapeInstance& b, std::size_t max_contacts,
-                                     std::size_t searched, PairScratch& scratch)
+                                     PairScratch& scratch)
 {
   std::vector<ShapeContact> contacts;
-  const std::size_t most = std::max(max_contacts, searched);
+  const std::size_t most = std::min(max_contacts, core::kMaxOfPair);
   if (isFaulty(a) || isFaulty(b) || (!isSolid(a) && !isSolid(b)))
     contacts.push_back(contactWithoutDepth(a, b));
   else if (isSolid(a))

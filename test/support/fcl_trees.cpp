@@ -2,12 +2,32 @@
 
 #include <vector>
 
-#include "collision/contacts/fcl_tree.h"
+#include <fcl/geometry/shape/cone.h>
+#include <fcl/geometry/shape/cylinder.h>
+#include <fcl/geometry/shape/sphere.h>
+
+#include "support/fcl_tree.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
+/// FCL's primitive for a sphere, cylinder or cone; null for any other shape.
+FclGeometry makeFclRound(const Shape& shape)
+{
+  FclGeometry geometry;
+  if (const auto* sphere = std::get_if<Sphere>(&shape))
+    geometry = std::make_shared<fcl::Sphered>(sphere->radius);
+  else if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+    geometry = std::make_shared<fcl::Cylinderd>(cylinder->radius, cylinder->length);
+  else if (const auto* cone = std::get_if<Cone>(&shape))
+    geometry = std::make_shared<fcl::Coned>(cone->radius, cone->length);
+  else
+    return nullptr;
+  geometry->computeLocalAABB();
+  return geometry;
+}
+
 FclGeometry makeTree(const Mesh& mesh, FclTree tree)
 {
   switch (tree)

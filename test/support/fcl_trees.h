@@ -4,11 +4,18 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/contacts/fcl_models.h"
 #include "gpu_planning_scene/shapes.h"
+
+namespace fcl
+{
+template <typename S>
+class CollisionGeometry;
+}
 
 namespace gpu_planning_scene::core
 {
+using FclGeometry = std::shared_ptr<fcl::CollisionGeometry<double>>;
+
 /// Bounding volumes of FCL's trees.
 enum class FclTree
 {

@@ -7,15 +7,16 @@
 #include <utility>
 
 #include "collision/bounds/problem_maker.h"
+#include "collision/contacts/body_contacts.h"
+#include "collision/contacts/body_pairs.h"
 #include "collision/contacts/clearance_search.h"
-#include "collision/contacts/fcl_contacts.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/exact/forest_cache.h"
 #include "collision/parallel_for.h"
 #include "collision/problem/state_validation.h"
 
-// The exact checker finds the colliding pairs of instances. FCL computes their contacts. The deepest contacts of each
-// pair of bodies are kept. Own method.
+// The exact checker finds the colliding pairs of instances. They are grouped by their bodies, because a contact
+// separates whole bodies. Own method.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -23,40 +24,35 @@ namespace
 // If several contact points of a pair are within this distance of each other, only the deepest is reported.
 constexpr double kSamePoint = 1e-6;  // metres
 
-/// Trees and FCL geometries of shapes. Scenes that have the same shapes share them.
+/// Trees of shapes. Scenes that have the same shapes share them.
 struct Models
 {
-  FclGeometry modelOf(const CollisionProblem& problem, std::uint32_t tree)
+  /// See isConvexSolid. The answer for a mesh is kept.
+  bool isConvex(const std::shared_ptr<const CpuTree>& tree)
   {
-    FclGeometry& model = fcl[problem.tessellations[tree].mesh];
-    if (!model)
-      model = makeFclSolid(problem.shapes[tree], problem.tessellations[tree]);
-    return model;
+    if (!tree->mesh)
+      return true;
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      const auto known = convex.find(tree);
+      if (known != convex.end())
+        return known->second;
+    }
+    const bool is_convex = isConvexSolid(*tree);
+    const std::lock_guard<std::mutex> lock(mutex);
+    return convex[tree] = is_convex;
   }
 
   void forgetUnused()
   {
-    for (FclModels* models : {&fcl, &triangles})
-      for (auto entry = models->begin(); entry != models->end();)
-        entry = entry->first.expired() ? models->erase(entry) : std::next(entry);
-  }
-
-  /// The triangles of a shape, for nearest points where FCL fails for the shape itself.
-  FclGeometry trianglesOf(const CollisionProblem& problem, std::uint32_t tree)
-  {
-    FclGeometry& model = triangles[problem.tessellations[tree].mesh];
-    if (!model)
-      model = makeFclSolid(problem.tessellations[tree].mesh, problem.tessellations[tree]);
-    return model;
+    for (auto entry = convex.begin(); entry != convex.end();)
+      entry = entry->first.expired() ? convex.erase(entry) : std::next(entry);
   }
 
   std::mutex mutex;  // guards all members below
   ProblemMaker maker{optionsWithAllPairs()};
   ForestCache forests;
-  // Key: tessellation; shared by equal shapes.
-  using FclModels = std::map<std::weak_ptr<const Mesh>, FclGeometry, std::owner_less<>>;
-  FclModels fcl;
-  FclModels triangles;
+  std::map<std::weak_ptr<const CpuTree>, bool, std::owner_less<>> convex;
 };
 
 /// The prepared data of one group.
@@ -66,6 +62,7 @@ struct Inspected
   std::shared_ptr<const CpuForest> forest;
   std::unique_ptr<const CpuTraversal> traversal;
   std::unique_ptr<const ClearanceSearch> clearance;
+  std::unique_ptr<const BodyPairs> pairs;
 };
 
 /// Finds points that are nearer to each other than kSamePoint. Two such points are in the same cell of a grid or in
@@ -103,22 +100,33 @@ class NearPoints
   std::map<Cell, std::vector<Eigen::Vector3d>> cells_;
 };
 
-/// At most `max_contacts` contacts, the deepest first. Of contacts at the same place only the deepest is kept.
-std::vector<Contact> deepest(std::vector<Contact> contacts, std::size_t max_contacts)
+bool isDeeper(const Contact& a, const Contact& b)
 {
-  std::stable_sort(contacts.begin(), contacts.end(),
-                   [](const Contact& a, const Contact& b) { return a.depth > b.depth; });
+  return a.depth > b.depth;
+}
+
+/// At most `most` contacts, the deepest first. Of contacts at the same place only the deepest is kept.
+std::vector<Contact> deepest(std::vector<Contact> contacts, std::size_t most)
+{
+  std::stable_sort(contacts.begin(), contacts.end(), isDeeper);
   NearPoints points;
   std::vector<Contact> kept;
   for (const Contact& contact : contacts)
   {
-    if (kept.size() == max_contacts)
+    if (kept.size() == most)
       break;
     if (points.add(contact.point))
       kept.push_back(contact);
   }
   return kept;
 }
+
+/// The colliding pairs of instances of two bodies.
+struct CollidingBodies
+{
+  std::vector<InstancePair> shapes;
+  std::vector<InstancePair> half_spaces;  // the second index counts the half-spaces
+};
 }  // namespace
 
 struct StateInspector::Impl
@@ -130,8 +138,13 @@ struct StateInspector::Impl
 
   const Inspected& inspected(const std::string& group);
   std::vector<Eigen::Isometry3d> linkPoses(const double* state) const;
-  void addContacts(const Inspected& group, const InstancePair& pair, const CpuTraversal::Scratch& placed,
-                   CpuShapePair::Scratch& scratch, std::map<BodyPair, std::vector<Contact>>& contacts);
+  ContactShape shapeOf(const Inspected& group, std::size_t instance, const std::vector<Eigen::Isometry3d>& link_poses);
+  std::vector<Contact> contactsOfBodies(const Inspected& group, const BodyPair& bodies,
+                                        const CollidingBodies& colliding,
+                                        const std::vector<Eigen::Isometry3d>& link_poses, std::size_t most);
+  std::vector<ShapeContact> contactsOfShapes(const Inspected& group, const BodyPair& bodies,
+                                             const std::vector<InstancePair>& colliding,
+                                             const std::vector<Eigen::Isometry3d>& link_poses, std::size_t most);
   std::array<Eigen::Vector3d, 2> nearestPoints(const Inspected& group, const InstancePair& pair, const BodyPair& bodies,
                                                double clearance, const std::vector<Eigen::Isometry3d>& link_poses);
 
@@ -151,6 +164,7 @@ const Inspected& StateInspector::Impl::inspected(const std::string& group)
   made.traversal = models->forests.traversalOf(made.problem);
   made.forest = models->forests.forest();
   made.clearance = std::make_unique<const ClearanceSearch>(made.problem, made.forest, models->forests.objects());
+  made.pairs = std::make_unique<const BodyPairs>(*made.problem);
   return groups.emplace(group, std::move(made)).first->second;
 }
 
@@ -162,43 +176,78 @@ std::vector<Eigen::Isometry3d> StateInspector::Impl::linkPoses(const double* sta
   return poses;
 }
 
-void StateInspector::Impl::addContacts(const Inspected& group, const InstancePair& pair,
-                                       const CpuTraversal::Scratch& placed, CpuShapePair::Scratch& scratch,
-                                       std::map<BodyPair, std::vector<Contact>>& contacts)
+/// The index counts the instances of the robot, then those of the world.
+ContactShape StateInspector::Impl::shapeOf(const Inspected& group, std::size_t instance,
+                                           const std::vector<Eigen::Isometry3d>& link_poses)
 {
   const CollisionProblem& problem = *group.problem;
-  const ShapeInstance& a = problem.robot[pair[0]];
-  const Eigen::Isometry3d& pose = placed.poses[pair[0]];
-  const std::size_t robots = problem.robot.size();
-  std::vector<ShapeContact> found;
-  if (pair[1] >= robots + problem.world.size())
+  const bool is_robot = instance < problem.robot.size();
+  const ShapeInstance& shape = is_robot ? problem.robot[instance] : problem.world[instance - problem.robot.size()];
+  const Eigen::Isometry3d pose = is_robot ? link_poses[static_cast<std::size_t>(shape.link)] * shape.pose : shape.pose;
+  return {&group.forest->tree(shape.tree), pose, models->isConvex(group.forest->shared(shape.tree))};
+}
+
+std::vector<ShapeContact> StateInspector::Impl::contactsOfShapes(const Inspected& group, const BodyPair& bodies,
+                                                                 const std::vector<InstancePair>& colliding,
+                                                                 const std::vector<Eigen::Isometry3d>& link_poses,
+                                                                 std::size_t most)
+{
+  const CollisionProblem& problem = *group.problem;
+  const CpuShapePair exact(group.forest);
+  CpuShapePair::Scratch scratch;
+  double reach = 0.0;  // the diagonal of the first body
+  for (const InstancePair& pair : colliding)
+    reach += 2.0 * group.forest->tree(problem.robot[pair[0]].tree).half.norm();
+  while (true)
   {
-    const WorldHalfSpace& b = problem.half_spaces[pair[1] - robots - problem.world.size()];
-    found.push_back(contactOf(pose, group.forest->tree(a.tree).shape, b, a.padding + b.padding));
+    std::vector<ContactPair> pairs;
+    std::vector<std::size_t> numbers;
+    group.pairs->visit(
+        problem, bodies,
+        [&](const InstancePair& pair)
+        {
+          ContactPair found = {shapeOf(group, pair[0], link_poses), shapeOf(group, pair[1], link_poses), 0.0};
+          const std::size_t robots = problem.robot.size();
+          if (pair[1] >= robots)
+            found.required = problem.robot[pair[0]].padding + problem.world[pair[1] - robots].padding;
+          const double distance =
+              boundsOf(*found.a.tree, found.a.pose).exteriorDistance(boundsOf(*found.b.tree, found.b.pose));
+          if (distance > reach + found.required)
+            return;
+          if (bodyOf(problem, pair[0]) != bodies[0])
+            std::swap(found.a, found.b);
+          if (std::find(colliding.begin(), colliding.end(), pair) != colliding.end())
+            numbers.push_back(pairs.size());
+          pairs.push_back(found);
+        });
+    std::vector<ShapeContact> contacts = contactsOf(pairs, numbers, exact, scratch, most);
+    // Shapes that were left out are farther away than the translation.
+    if (contacts.front().depth < reach || std::isinf(reach))
+      return contacts;
+    reach = std::numeric_limits<double>::infinity();
   }
-  else
+}
+
+std::vector<Contact> StateInspector::Impl::contactsOfBodies(const Inspected& group, const BodyPair& bodies,
+                                                            const CollidingBodies& colliding,
+                                                            const std::vector<Eigen::Isometry3d>& link_poses,
+                                                            std::size_t most)
+{
+  const CollisionProblem& problem = *group.problem;
+  std::vector<Contact> contacts;
+  if (!colliding.shapes.empty())
+    for (const ShapeContact& found : contactsOfShapes(group, bodies, colliding.shapes, link_poses, most))
+      contacts.push_back({bodies, found.point, found.normal, found.depth});
+  for (const auto& [instance, number] : colliding.half_spaces)
   {
-    const bool self = pair[1] < robots;
-    const ShapeInstance& b = self ? problem.robot[pair[1]] : problem.world[pair[1] - robots];
-    FclShape shape_a{a.tree, pose, nullptr};
-    FclShape shape_b{b.tree, self ? placed.poses[pair[1]] : b.pose, nullptr};
-    {
-      const std::lock_guard<std::mutex> lock(models->mutex);
-      shape_a.model = models->modelOf(problem, a.tree);
-      shape_b.model = models->modelOf(problem, b.tree);
-    }
-    found = contactsOf(shape_a, shape_b, self ? 0.0 : a.padding + b.padding, *group.forest, CpuShapePair(group.forest),
-                       scratch);
+    const WorldHalfSpace& half_space = problem.half_spaces[number];
+    const ShapeContact found =
+        contactWithHalfSpace(shapeOf(group, instance, link_poses), {half_space.normal, half_space.offset},
+                             problem.robot[instance].padding + half_space.padding);
+    const bool swapped = problem.robot[instance].body != bodies[0];
+    contacts.push_back({bodies, found.point, swapped ? Eigen::Vector3d(-found.normal) : found.normal, found.depth});
   }
-  const std::int32_t first = a.body;
-  const std::int32_t second = bodyOf(problem, pair[1]);
-  for (const ShapeContact& contact : found)
-  {
-    const bool swapped = second < first;
-    const BodyPair bodies = swapped ? BodyPair{second, first} : BodyPair{first, second};
-    contacts[bodies].push_back(
-        {bodies, contact.point, swapped ? Eigen::Vector3d(-contact.normal) : contact.normal, contact.depth});
-  }
+  return deepest(std::move(contacts), most);
 }
 
 /// The points in the order of `bodies`.
@@ -206,48 +255,23 @@ std::array<Eigen::Vector3d, 2> StateInspector::Impl::nearestPoints(const Inspect
                                                                    const BodyPair& bodies, double clearance,
                                                                    const std::vector<Eigen::Isometry3d>& link_poses)
 {
-  // Triangles of a curved solid are off by their sagitta, on both sides: up to 1e-4 m. It is larger for solids such as
-  // spheres with a radius above half a metre: then FCL's points may be refused, and the answer has none.
-  constexpr double kTriangleTolerance = 3e-4;  // metres
   const CollisionProblem& problem = *group.problem;
-  const ShapeInstance& a = problem.robot[pair[0]];
-  const Eigen::Isometry3d pose = link_poses[static_cast<std::size_t>(a.link)] * a.pose;
   const std::size_t robots = problem.robot.size();
+  const ContactShape a = shapeOf(group, pair[0], link_poses);
   std::array<Eigen::Vector3d, 2> points;
   if (pair[1] >= robots + problem.world.size())
   {
     const WorldHalfSpace& b = problem.half_spaces[pair[1] - robots - problem.world.size()];
-    points[0] = contactOf(pose, group.forest->tree(a.tree).shape, b, 0.0).point;
+    points[0] = contactWithHalfSpace(a, {b.normal, b.offset}, 0.0).point;
     points[1] = points[0] - (b.normal.dot(points[0]) - b.offset) * b.normal;
   }
   else
   {
-    const bool is_self = pair[1] < robots;
-    const ShapeInstance& b = is_self ? problem.robot[pair[1]] : problem.world[pair[1] - robots];
-    const double distance = clearance + (is_self ? 0.0 : a.padding + b.padding);
-    FclShape shape_a{a.tree, pose, nullptr};
-    FclShape shape_b{b.tree, is_self ? link_poses[static_cast<std::size_t>(b.link)] * b.pose : b.pose, nullptr};
-    const auto set_models = [&](FclGeometry (Models::*model_of)(const CollisionProblem&, std::uint32_t))
-    {
-      const std::lock_guard<std::mutex> lock(models->mutex);
-      shape_a.model = (*models.*model_of)(problem, a.tree);
-      shape_b.model = (*models.*model_of)(problem, b.tree);
-    };
-    set_models(&Models::modelOf);
-    auto found = fclNearestPoints(shape_a, shape_b, distance);
-    if (!found)
-    {
-      set_models(&Models::trianglesOf);
-      found = fclNearestPoints(shape_a, shape_b, distance, kTriangleTolerance);
-    }
-    if (!found)
-    {
-      const Eigen::Vector3d none = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-      return {none, none};
-    }
-    points = *found;
+    const double required =
+        pair[1] < robots ? 0.0 : problem.robot[pair[0]].padding + problem.world[pair[1] - robots].padding;
+    points = nearestPointsOf(a, shapeOf(group, pair[1], link_poses), clearance + required);
   }
-  if (a.body != bodies[0])
+  if (problem.robot[pair[0]].body != bodies[0])
     std::swap(points[0], points[1]);
   return points;
 }
@@ -275,23 +299,29 @@ std::vector<Contact> StateInspector::contacts(const double* state, const std::st
   const std::vector<Eigen::Isometry3d> poses = impl_->linkPoses(state);
   if (max_contacts == 0)
     return {};
-  CpuTraversal::Scratch placed;
-  CpuShapePair::Scratch scratch;
-  std::map<BodyPair, std::vector<Contact>> by_pair;
-  for (const auto& pair : inspected.traversal->collidingInstances(poses.data(), placed))
-    impl_->addContacts(inspected, pair, placed, scratch, by_pair);
+  CpuTraversal::Scratch scratch;
+  std::map<BodyPair, CollidingBodies> by_bodies;
+  const CollisionProblem& problem = *inspected.problem;
+  const std::size_t first_half_space = problem.robot.size() + problem.world.size();
+  for (const InstancePair& pair : inspected.traversal->collidingInstances(poses.data(), scratch))
+  {
+    CollidingBodies& colliding = by_bodies[bodiesOf(problem, pair)];
+    if (pair[1] < first_half_space)
+      colliding.shapes.push_back(pair);
+    else
+      colliding.half_spaces.push_back({pair[0], static_cast<std::uint32_t>(pair[1] - first_half_space)});
+  }
+  const std::size_t most = std::min({max_contacts, max_per_pair == 0 ? max_contacts : max_per_pair, kMaxOfPair});
   std::vector<Contact> firsts;
   std::vector<Contact> others;
-  for (const auto& [bodies, contacts] : by_pair)
+  for (const auto& [bodies, colliding] : by_bodies)
   {
-    const std::vector<Contact> kept =
-        deepest(contacts, max_per_pair == 0 ? max_contacts : std::min(max_contacts, max_per_pair));
-    firsts.push_back(kept.front());
-    others.insert(others.end(), kept.begin() + 1, kept.end());
+    const std::vector<Contact> found = impl_->contactsOfBodies(inspected, bodies, colliding, poses, most);
+    firsts.push_back(found.front());
+    others.insert(others.end(), found.begin() + 1, found.end());
   }
-  const auto deeper = [](const Contact& a, const Contact& b) { return a.depth > b.depth; };
-  std::stable_sort(firsts.begin(), firsts.end(), deeper);
-  std::stable_sort(others.begin(), others.end(), deeper);
+  std::stable_sort(firsts.begin(), firsts.end(), isDeeper);
+  std::stable_sort(others.begin(), others.end(), isDeeper);
   firsts.insert(firsts.end(), others.begin(), others.end());
   firsts.resize(std::min(firsts.size(), max_contacts));
   return firsts;

@@ -23,6 +23,10 @@ class Simplex
 
   const Eigen::Vector3d& nearest() const { return nearest_; }
 
+  /// The points of the face that contains the nearest point.
+  int count() const { return count_; }
+  const Eigen::Vector3d& point(int i) const { return points_[i]; }
+
  private:
   /// A face of the hull: the numbers of its points, and its point that is nearest to the origin.
   struct Face

@@ -126,7 +126,6 @@ TEST_F(ClearanceTest, HasANearestPairWithItsPointsAndInCollisionItsDepth)
   ASSERT_EQ(kCount, found.size());
   const auto objects = static_cast<std::int32_t>(made->robot->links().size());
   std::size_t free = 0;
-  std::size_t with_points = 0;
   for (std::size_t i = 0; i < kCount; ++i)
   {
     const double* state = &states[i * width];
@@ -152,20 +151,16 @@ TEST_F(ClearanceTest, HasANearestPairWithItsPointsAndInCollisionItsDepth)
       ++free;
       EXPECT_EQ(expected, pair.distance);
       EXPECT_NEAR(oracle::ProblemOracle(pairOf(*made, pair.bodies)).clearance(poses, 10.0), pair.distance, 2e-6);
-      if (!pair.points[0].allFinite())
-        continue;
-      ++with_points;
       double required = 0.0;
       if (of_world)
         required = 0.006 + (pair.bodies[1] < objects + static_cast<std::int32_t>(made->objects.size())
                                 ? made->objects[static_cast<std::size_t>(pair.bodies[1] - objects)].padding
                                 : 0.0);
-      EXPECT_NEAR(pair.distance + required, (pair.points[1] - pair.points[0]).norm(), 3.1e-4) << i;
+      EXPECT_NEAR(pair.distance + required, (pair.points[1] - pair.points[0]).norm(), 4e-6) << i;
     }
   }
   EXPECT_GT(free, kCount / 4);
   EXPECT_LT(free, 2 * kCount);
-  EXPECT_GT(with_points, free * 9 / 10);
 }
 
 TEST_F(ClearanceTest, IsInfiniteWhereNothingIsChecked)
