@@ -18,7 +18,7 @@ unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box)
   const Floats between[3] = {box.center[0] - load(node.center[0]), box.center[1] - load(node.center[1]),
                              box.center[2] - load(node.center[2])};
   const Floats a[3] = {load(node.half[0]), load(node.half[1]), load(node.half[2])};
-  const float* b = box.half;
+  const float b[3] = {box.half[0] + box.distance, box.half[1] + box.distance, box.half[2] + box.distance};
   Floats r[3][3];  // the axes of `box` in the frames of the node's boxes
   Floats abs_r[3][3];
   Floats t[3];
@@ -34,11 +34,22 @@ unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box)
       abs_r[i][j] = magnitude(r[i][j]) + kParallel;
     }
     t[i] = x * between[0] + y * between[1] + z * between[2];
-    apart |= magnitude(t[i]) > a[i] + abs_r[i][0] * b[0] + abs_r[i][1] * b[1] + abs_r[i][2] * b[2];
+    apart |= magnitude(t[i]) >
+             a[i] + box.distance + abs_r[i][0] * box.half[0] + abs_r[i][1] * box.half[1] + abs_r[i][2] * box.half[2];
   }
+  Floats along[3];  // the vector between the centres along the axes of `box`
   for (int j = 0; j < 3; ++j)
-    apart |= magnitude(t[0] * r[0][j] + t[1] * r[1][j] + t[2] * r[2][j]) >
-             a[0] * abs_r[0][j] + a[1] * abs_r[1][j] + a[2] * abs_r[2][j] + b[j];
+  {
+    along[j] = magnitude(t[0] * r[0][j] + t[1] * r[1][j] + t[2] * r[2][j]);
+    apart |= along[j] > a[0] * abs_r[0][j] + a[1] * abs_r[1][j] + a[2] * abs_r[2][j] + b[j];
+  }
+  if (box.has_long_distance)
+  {
+    const Floats squared = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
+    const Floats reach_a = a[0] * magnitude(t[0]) + a[1] * magnitude(t[1]) + a[2] * magnitude(t[2]);
+    const Floats reach_b = box.half[0] * along[0] + box.half[1] * along[1] + box.half[2] * along[2];
+    apart |= squared - (reach_a + reach_b) > box.distance * squareRoot(squared);
+  }
   // A comparison with NaN is false, so a box with NaN counts as overlapping.
   int kept = ~bits(apart) & present;
   if (kept == 0)
