@@ -92,7 +92,6 @@ TEST_F(AbandonedProofs, EndSoonAmongBallsAndTables)
   const ToProve shells{PlanningScene(shellRobot(50000))};
   std::shared_ptr<ProofJob> job = shells.inBackground();
   std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  EXPECT_FALSE(job->proofs());
   Clock::time_point start = Clock::now();
   job.reset();
   waitForProofs();

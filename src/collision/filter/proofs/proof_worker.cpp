@@ -26,7 +26,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kNice = 5;  // of the threads that make proofs, added to that of the process
 // If other jobs wait, a job ends its turn after this time, between two covers or tables.
-constexpr std::chrono::milliseconds kTurn{500};
+constexpr std::chrono::milliseconds kTurnTime{500};
 
 /// Lowers the priority of this thread and of the threads that it starts: checks come first. The thread may have been
 /// started by a real-time thread, whose policy it then has.
@@ -140,7 +140,7 @@ class ProofWorker
   {
     const Clock::time_point start = Clock::now();
     const auto is_stopped = [&] { return ending_ || task.job.expired(); };
-    const auto is_paused = [&] { return Clock::now() - start > kTurn && isAnyWaiting(); };
+    const auto is_paused = [&] { return Clock::now() - start > kTurnTime && isAnyWaiting(); };
     const auto publish = [&](RobotProofs proofs)
     {
       if (const std::shared_ptr<ProofJob> job = task.job.lock())
