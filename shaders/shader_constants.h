@@ -217,7 +217,8 @@
 #define MARGINS 0
 #endif
 
-// 1 in the programs for two meshes with a required distance: they also compare distances of nodes and triangles with it.
+// 1 in the programs for two meshes with a required distance: they also compare the distances of nodes and triangles
+// with it.
 #ifndef PADDED
 #define PADDED 0
 #endif

@@ -51,8 +51,8 @@ float sizeError(Box a, Box b)
 }
 
 // Returns true if the line of the centres is an axis along which two boxes are proven to be more than `needed` apart.
-// None of the 15 axes may point from one box to the other. If the required distance is long against the boxes, this axis
-// then separates more boxes. Own method.
+// None of the 15 axes may point from one box to the other. If the required distance is long against the boxes, this
+// axis then separates more boxes. Own method.
 bool apartAlongCenters(OrientedNode a, OrientedNode b, Pose pose, float needed)
 {
   const vec3 n = vectorBetween(a.box.center, apply(pose, b.box.center));
