@@ -18,7 +18,7 @@ unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box)
   const Floats between[3] = {box.center[0] - load(node.center[0]), box.center[1] - load(node.center[1]),
                              box.center[2] - load(node.center[2])};
   const Floats a[3] = {load(node.half[0]), load(node.half[1]), load(node.half[2])};
-  const float b[3] = {box.half[0] + box.distance, box.half[1] + box.distance, box.half[2] + box.distance};
+  const float* b = box.half;
   Floats r[3][3];  // the axes of `box` in the frames of the node's boxes
   Floats abs_r[3][3];
   Floats t[3];
@@ -34,8 +34,7 @@ unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box)
       abs_r[i][j] = magnitude(r[i][j]) + kParallel;
     }
     t[i] = x * between[0] + y * between[1] + z * between[2];
-    apart |= magnitude(t[i]) >
-             a[i] + box.distance + abs_r[i][0] * box.half[0] + abs_r[i][1] * box.half[1] + abs_r[i][2] * box.half[2];
+    apart |= magnitude(t[i]) > a[i] + abs_r[i][0] * b[0] + abs_r[i][1] * b[1] + abs_r[i][2] * b[2];
   }
   Floats along[3];  // the vector between the centres along the axes of `box`
   for (int j = 0; j < 3; ++j)
@@ -45,10 +44,14 @@ unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box)
   }
   if (box.has_long_distance)
   {
+    const float d = box.distance;
+    const float bare[3] = {b[0] - d, b[1] - d, b[2] - d};
+    for (int i = 0; i < 3; ++i)
+      apart |= magnitude(t[i]) > a[i] + abs_r[i][0] * bare[0] + abs_r[i][1] * bare[1] + abs_r[i][2] * bare[2] + d;
     const Floats squared = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
     const Floats reach_a = a[0] * magnitude(t[0]) + a[1] * magnitude(t[1]) + a[2] * magnitude(t[2]);
-    const Floats reach_b = box.half[0] * along[0] + box.half[1] * along[1] + box.half[2] * along[2];
-    apart |= squared - (reach_a + reach_b) > box.distance * squareRoot(squared);
+    const Floats reach_b = bare[0] * along[0] + bare[1] * along[1] + bare[2] * along[2];
+    apart |= squared - (reach_a + reach_b) > d * squareRoot(squared);
   }
   // A comparison with NaN is false, so a box with NaN counts as overlapping.
   int kept = ~bits(apart) & present;

@@ -155,7 +155,7 @@ FloatBox WidePlacement::place(const WideTree& from, BoxIndex box) const
       placed.axes[axis][row] =
           r[0] * node.axes[axis][0][slot] + r[1] * node.axes[axis][1][slot] + r[2] * node.axes[axis][2][slot];
     placed.center[row] = r[0] * x + r[1] * y + r[2] * z + translation_[row];
-    placed.half[row] = node.half[row][slot];
+    placed.half[row] = node.half[row][slot] + distance_;
   }
   placed.distance = distance_;
   placed.has_long_distance = has_long_distance_;
@@ -192,7 +192,7 @@ FloatBox floatBox(const OrientedBox& box, const WideTree& tree, double required)
     for (int axis = 0; axis < 3; ++axis)
       converted.axes[axis][k] = static_cast<float>(box.axes(k, axis));
     converted.center[k] = static_cast<float>(center[k]);
-    converted.half[k] = roundedUp(box.half[k]);
+    converted.half[k] = roundedUp(box.half[k]) + converted.distance;
   }
   return converted;
 }
