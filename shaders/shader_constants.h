@@ -207,7 +207,7 @@
 #define SOLIDS 0
 #endif
 
-// 1 in the programs that may end a traversal early, see traversal/tolerance.glsl.
+// 1 in the programs with a tolerance, see traversal/tolerance.glsl.
 #ifndef TOLERANT
 #define TOLERANT 0
 #endif
@@ -217,7 +217,8 @@
 #define MARGINS 0
 #endif
 
-// 1 in the programs that also compare the distance of two triangles with a required distance.
+// 1 in the programs for two meshes with a required distance: they also compare the distances of nodes and triangles
+// with it.
 #ifndef PADDED
 #define PADDED 0
 #endif

@@ -28,7 +28,8 @@ using namespace gpu_planning_scene::core::benchmark;
 
 namespace
 {
-const std::vector<std::string> kParts = {"build", "latency", "throughput", "stages", "updates", "growth", "meshes"};
+const std::vector<std::string> kParts = {"build",   "latency", "throughput", "stages",
+                                         "updates", "growth",  "meshes",     "distances"};
 const std::vector<std::string> kQuickScenes = {"kr5_boxes", "ur5_cage", "arm_boxes", "arm_shelf"};
 constexpr std::size_t kQuickSceneCount = 2;
 
@@ -160,8 +161,10 @@ void run(const CommandLine& arguments)
             wrong += measureMovedObjects(settings);
           else if (part == "growth")
             wrong += measureGrowth(settings);
-          else
+          else if (part == "meshes")
             wrong += measureMeshPairs(settings);
+          else
+            wrong += measureRequiredDistances(settings);
         });
     std::cerr << part << ": " << static_cast<int>(seconds) << " s" << std::endl;
   }

@@ -42,4 +42,6 @@ std::size_t measureMovedObjects(const Settings& settings);
 std::size_t measureGrowth(const Settings& settings);
 /// mesh_pairs.csv
 std::size_t measureMeshPairs(const Settings& settings);
+/// required_distances.csv
+std::size_t measureRequiredDistances(const Settings& settings);
 }  // namespace gpu_planning_scene::core::benchmark

@@ -1,8 +1,8 @@
-// With a tolerance above 0, a traversal may end early. All contents of a node are within half the diagonal of its box
-// from the centre of the box. So the distance of the contents of two nodes is at most the distance of the centres plus
-// both half diagonals. If that sum is at most the required distance plus the tolerance, a collision may be reported.
-// Overlapping nodes satisfy this when the sum of their diagonals is at most the tolerance. Own method: it follows from
-// the triangle inequality.
+// With a tolerance or a required distance above 0, a traversal may end early. All contents of a node are within half
+// the diagonal of its box from the centre of the box. So the distance of the contents of two nodes is at most the
+// distance of the centres plus both half diagonals. If that sum is at most the required distance plus the tolerance, a
+// collision may be reported. Overlapping nodes satisfy this when the sum of their diagonals is at most the tolerance.
+// Own method: it follows from the triangle inequality.
 layout(location = LOCATION_TOLERANCE) uniform float tolerance;  // metres
 
 bool isCloseEnough(uint root_pair_index, RootPair root_pair, OrientedNode a, OrientedNode b)
@@ -21,5 +21,6 @@ bool isCloseEnough(uint root_pair_index, RootPair root_pair, OrientedNode a, Ori
 #else
   const float reach = length(between) + length(a.box.extent) + length(b.box.extent);
 #endif
-  return reach * (1.0 + 16.0 * u) + boxError(root_pair.error) <= tolerance + fetchDistance(root_pair_index);
+  const float enough = tolerance + (1.0 - 4.0 * u) * fetchDistance(root_pair_index);
+  return reach * (1.0 + 16.0 * u) + boxError(root_pair.error) <= enough;
 }

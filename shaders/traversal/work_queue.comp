@@ -28,7 +28,7 @@ layout(local_size_x = QUEUE_INVOCATIONS) in;
 // Room for all leaf pairs that the invocations can add before the work group tests triangles.
 #define LEAF_QUEUE (QUEUE_FLUSH + QUEUE_INVOCATIONS * QUEUE_STEPS)
 #include "traversal/leaf_queue.glsl"
-#if TOLERANT
+#if TOLERANT || PADDED
 #include "traversal/tolerance.glsl"
 #endif
 layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;    // counter of the list that is read
@@ -115,7 +115,7 @@ void main()
       overlap = overlap && !nodeBeyondSolid(a, b, instance_a, instance_b, root_pair);
       inside = nodeInCore(a, b, instance_a.core, instance_b.core, root_pair.pose, boxError(root_pair.error));
 #endif
-#if TOLERANT
+#if TOLERANT || PADDED
       inside = inside || isCloseEnough(root_pair_index, root_pair, a, b);
 #endif
       const bool leaf = a.count != 0u && b.count != 0u;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <optional>
 
+#include "gpu_planning_scene/cpu_checker.h"
 #include "node/checks/check_services.h"
 #include "node/checks/scene_watch.h"
 #include "node/endpoints/diagnostics.h"
@@ -69,7 +70,10 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   known = &store;
   const CheckServer::MakeChecker make_checker = diagnostics.watched(makeResilientCheckers(
       checker_options, resilience, open_device, [](const std::string& warning) { ROS_WARN_STREAM(warning); }));
-  CheckServer server(store, make_checker, server_options);
+  // A CPU checks few states as fast as a device, and its checker needs no memory of a device.
+  const CheckServer::MakeChecker make_relief = [&checker_options](std::shared_ptr<const PlanningScene> its_scene)
+  { return std::make_shared<CpuChecker>(std::move(its_scene), checker_options); };
+  CheckServer server(store, make_checker, server_options, make_relief);
   const SceneWatch watch(own, store, server);
 
   const MemoryGuard memory(options.max_memory);
@@ -124,10 +128,10 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   plan_requests.advertise<PlanMotion>("plan", [&](const PlanMotion::Request& r) { return plans.plan(r); });
 
   // Each waiting request occupies a thread, and a thread must be free to answer "busy" immediately. Up to
-  // max_waiting_requests requests each can be in the running batch of small requests, in the queue of small requests,
-  // in the queue of large requests, in the queue for contacts, and waiting for a revision. check_states is advertised
-  // last: when it is there, all other services are.
-  Endpoints check_requests(node, own, 5 * server_options.max_waiting_requests + 8, diagnostics, scene_fault);
+  // max_waiting_requests requests each can be in the two running batches of small requests, in their queue, in the
+  // queue of large requests, in the queue for contacts, and waiting for a revision. check_states is advertised last:
+  // when it is there, all other services are.
+  Endpoints check_requests(node, own, 6 * server_options.max_waiting_requests + 8, diagnostics, scene_fault);
   check_requests.advertise<CheckMotions>(
       "check_motions", [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
   check_requests.advertise<CheckTrajectory>(

@@ -1,12 +1,15 @@
 #include "service/check_queue.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <iterator>
 
 #include "model/seconds_since.h"
 
 // The oldest request and all queued requests that can be merged with it are one batch, and each request gets its part
-// of the answer. Own method.
+// of the answer. How long a batch takes is not known before, so a second thread answers the requests of few states that
+// have waited too long. Own method.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -15,6 +18,17 @@ namespace
 constexpr double kBatchSeconds = 0.5;
 constexpr std::size_t kLeastBatch = 16;    // states
 constexpr std::size_t kFirstBatch = 1024;  // states
+
+// Requests of at most this many states are answered by the second thread if they have waited for kPatience.
+constexpr std::size_t kFewStates = 16;
+constexpr std::chrono::milliseconds kPatience{10};
+
+/// Whether the second thread may answer a request. Motions need an unknown number of checks, and a report belongs to
+/// the checker of the other states.
+bool hasFewStates(const CheckJob& job, std::size_t count)
+{
+  return count <= kFewStates && !job.motions && !job.report;
+}
 
 std::exception_ptr shuttingDown()
 {
@@ -67,14 +81,16 @@ CheckAnswer part(const CheckAnswer& whole, std::size_t first, std::size_t count,
 }  // namespace
 
 CheckQueue::CheckQueue(const SceneStore& store, CheckServer::MakeChecker make_checker,
-                       const CheckServerOptions& options, std::size_t max_merged_states)
+                       const CheckServerOptions& options, std::size_t max_merged_states,
+                       CheckServer::MakeChecker make_relief)
   : store_(store),
-    make_checker_(std::move(make_checker)),
     options_(options),
     max_merged_states_(max_merged_states),
     width_(store.snapshot().scene->robot->variables().size()),
-    batch_size_({kBatchSeconds, kFirstBatch, kLeastBatch, options.max_batch_states}),
-    thread_()
+    worker_{std::move(make_checker), BatchSize({kBatchSeconds, kFirstBatch, kLeastBatch, options.max_batch_states})},
+    relief_{std::move(make_relief), worker_.batch_size},
+    thread_(),
+    relief_thread_()
 {
 }
 
@@ -85,7 +101,7 @@ CheckQueue::~CheckQueue()
 
 void CheckQueue::open()
 {
-  takeScene({});
+  takeScene({}, worker_);
 }
 
 std::future<CheckAnswer> CheckQueue::submit(CheckJob job, std::size_t count)
@@ -103,30 +119,35 @@ std::future<CheckAnswer> CheckQueue::submit(CheckJob job, std::size_t count)
   Request request;
   request.job = std::move(job);
   request.count = count;
+  request.submitted = std::chrono::steady_clock::now();
   std::future<CheckAnswer> answer = request.answer.get_future();
   waiting_states_ += count;
   waiting_.push_back(std::move(request));
   if (!thread_.joinable())
     thread_ = std::thread([this] { run(); });
-  wake_.notify_one();
+  if (relief_.make_checker && !relief_thread_.joinable())
+    relief_thread_ = std::thread([this] { relieve(); });
+  wake_.notify_all();
   return answer;
 }
 
 void CheckQueue::stop()
 {
-  std::thread thread;
+  std::array<std::thread, 2> threads;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stopping_ = true;
-    thread.swap(thread_);
+    threads[0].swap(thread_);
+    threads[1].swap(relief_thread_);
     for (Request& request : waiting_)
       request.answer.set_exception(shuttingDown());
     waiting_.clear();
     waiting_states_ = 0;
   }
-  wake_.notify_one();
-  if (thread.joinable())
-    thread.join();
+  wake_.notify_all();
+  for (std::thread& thread : threads)
+    if (thread.joinable())
+      thread.join();
 }
 
 CheckStatistics CheckQueue::statistics() const
@@ -141,7 +162,29 @@ CheckStatistics CheckQueue::statistics() const
 void CheckQueue::run()
 {
   for (Batch batch = nextBatch(); !batch.empty(); batch = nextBatch())
-    answer(batch);
+    answer(batch, worker_);
+}
+
+/// The second thread. While the first thread is fast, no request waits for so long.
+void CheckQueue::relieve()
+{
+  std::unique_lock<std::mutex> lock(mutex_);
+  while (!stopping_)
+  {
+    const auto first = std::find_if(waiting_.begin(), waiting_.end(),
+                                    [](const Request& request) { return hasFewStates(request.job, request.count); });
+    if (first == waiting_.end())
+      wake_.wait(lock);
+    else if (const auto due = first->submitted + kPatience; std::chrono::steady_clock::now() < due)
+      wake_.wait_until(lock, due);
+    else
+    {
+      Batch batch = take(first, kFewStates);
+      lock.unlock();
+      answer(batch, relief_);
+      lock.lock();
+    }
+  }
 }
 
 /// Takes the oldest queued request and all requests that can be merged with it. Empty: the queue stops.
@@ -149,21 +192,25 @@ CheckQueue::Batch CheckQueue::nextBatch()
 {
   std::unique_lock<std::mutex> lock(mutex_);
   wake_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
+  return stopping_ ? Batch() : take(waiting_.begin(), max_merged_states_);
+}
+
+/// Takes a queued request and all later ones that can be merged with it, up to `max_states`. The caller holds the lock.
+CheckQueue::Batch CheckQueue::take(Batch::iterator from, std::size_t max_states)
+{
+  Batch others(std::make_move_iterator(waiting_.begin()), std::make_move_iterator(from));
   Batch batch;
-  if (stopping_)
-    return batch;
-  batch.push_back(std::move(waiting_.front()));
-  waiting_.pop_front();
+  batch.push_back(std::move(*from));
   std::size_t states = batch.front().count;
-  Batch others;
-  for (Request& request : waiting_)
+  for (auto request = std::next(from); request != waiting_.end(); ++request)
   {
     const CheckJob& first = batch.front().job;
-    const bool joins = !first.report && !request.job.report && !first.motions && !request.job.motions && !first.scene &&
-                       !request.job.scene && states + request.count <= max_merged_states_ &&
-                       request.job.group == first.group && isEqual(request.job.matrix, first.matrix);
-    states += joins ? request.count : 0;
-    (joins ? batch : others).push_back(std::move(request));
+    const CheckJob& next = request->job;
+    const bool joins = !first.report && !next.report && !first.motions && !next.motions && !first.scene &&
+                       !next.scene && states + request->count <= max_states && next.group == first.group &&
+                       isEqual(next.matrix, first.matrix);
+    states += joins ? request->count : 0;
+    (joins ? batch : others).push_back(std::move(*request));
   }
   waiting_ = std::move(others);
   waiting_states_ -= states;
@@ -171,7 +218,7 @@ CheckQueue::Batch CheckQueue::nextBatch()
 }
 
 /// If a merged batch fails, each of its requests is checked alone, so that only the wrong requests get an error.
-void CheckQueue::answer(Batch& batch)
+void CheckQueue::answer(Batch& batch, Worker& worker)
 {
   try
   {
@@ -181,7 +228,7 @@ void CheckQueue::answer(Batch& batch)
     CheckAnswer whole;
     try
     {
-      whole = check(batch, count);
+      whole = check(batch, count, worker);
     }
     catch (...)
     {
@@ -191,7 +238,7 @@ void CheckQueue::answer(Batch& batch)
       {
         Batch alone;
         alone.push_back(std::move(request));
-        answer(alone);
+        answer(alone, worker);
       }
       return;
     }
@@ -215,25 +262,25 @@ void CheckQueue::answer(Batch& batch)
   }
 }
 
-CheckAnswer CheckQueue::check(Batch& batch, std::size_t count)
+CheckAnswer CheckQueue::check(Batch& batch, std::size_t count, Worker& worker)
 {
   const CheckJob& job = batch.front().job;
-  const Snapshot now = takeScene(job);
+  const Snapshot now = takeScene(job, worker);
   std::vector<double> states = statesOf(batch, now);
   CheckAnswer answer;
   answer.scene = now.scene;
   if (job.motions)
-    checkMotions(job, states, answer);
+    checkMotions(job, states, answer, worker);
   else
   {
-    answer.result = checkStates(states, count, job.group);
+    answer.result = checkStates(states, count, job.group, worker);
     answer.states_checked = count;
   }
   if (job.report)
-    answer.report = checker_->report(job.group);
+    answer.report = worker.checker->report(job.group);
   if (std::any_of(batch.begin(), batch.end(), [](const Request& request) { return request.job.keep_states; }))
     answer.states = std::move(states);
-  answer.device = checker_->deviceName();
+  answer.device = worker.checker->deviceName();
   return answer;
 }
 
@@ -253,7 +300,8 @@ std::vector<double> CheckQueue::statesOf(Batch& batch, const Snapshot& now) cons
   return states;
 }
 
-BatchResult CheckQueue::checkStates(const std::vector<double>& states, std::size_t count, const std::string& group)
+BatchResult CheckQueue::checkStates(const std::vector<double>& states, std::size_t count, const std::string& group,
+                                    Worker& worker)
 {
   BatchResult all;
   std::size_t from = 0;
@@ -261,31 +309,32 @@ BatchResult CheckQueue::checkStates(const std::vector<double>& states, std::size
   {
     if (from != 0 && isStopping())
       std::rethrow_exception(shuttingDown());
-    const std::size_t rows = std::min(count - from, batch_size_.size());
-    const BatchResult part = checker_->check(states.data() + from * width_, rows, group);
-    batch_size_.took(rows, part.seconds);
+    const std::size_t rows = std::min(count - from, worker.batch_size.size());
+    const BatchResult part = worker.checker->check(states.data() + from * width_, rows, group);
+    worker.batch_size.took(rows, part.seconds);
     all.append(part);
     from += rows;
   } while (from < count);
   return all;
 }
 
-void CheckQueue::checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer)
+void CheckQueue::checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer,
+                              Worker& worker)
 {
   const auto start = std::chrono::steady_clock::now();
-  const MotionChecker checker(checker_, answer.scene->robot, job.group, *job.motions);
+  const MotionChecker checker(worker.checker, answer.scene->robot, job.group, *job.motions);
   const std::size_t rows = width_ == 0 ? 0 : states.size() / width_;
   std::size_t count = rows / 2;
   const double* ends = states.data() + count * width_;
   if (job.is_path)
   {
-    answer.result = checkStates(states, rows, job.group);
+    answer.result = checkStates(states, rows, job.group, worker);
     answer.states_checked = rows;
     count = rows == 0 ? 0 : rows - 1;
     ends = states.data() + (rows == 0 ? 0 : width_);
   }
   else if (count == 0)
-    checker_->check(nullptr, 0, job.group);  // the checker must see an unknown group even without motions
+    worker.checker->check(nullptr, 0, job.group);  // the checker must see an unknown group even without motions
   answer.motions = checker.check(states.data(), ends, count, MotionQuery::LastValid, [this] { return isStopping(); });
   if (isStopping())
     std::rethrow_exception(shuttingDown());
@@ -300,7 +349,7 @@ bool CheckQueue::isStopping() const
   return stopping_;
 }
 
-Snapshot CheckQueue::takeScene(const CheckJob& job)
+Snapshot CheckQueue::takeScene(const CheckJob& job, Worker& worker) const
 {
   Snapshot now = job.scene ? *job.scene : store_.snapshot();
   if (job.matrix)
@@ -310,21 +359,21 @@ Snapshot CheckQueue::takeScene(const CheckJob& job)
     other->matrix_source = MatrixSource::SceneFile;
     now.scene = std::move(other);
   }
-  if (now.scene == checked_)
+  if (now.scene == worker.checked)
     return now;
   try
   {
-    if (checker_)
-      checker_->setScene(now.scene);
+    if (worker.checker)
+      worker.checker->setScene(now.scene);
     else
-      checker_ = make_checker_(now.scene);
-    checked_ = now.scene;
-    batch_size_.restart();
+      worker.checker = worker.make_checker(now.scene);
+    worker.checked = now.scene;
+    worker.batch_size.restart();
   }
   catch (...)
   {
-    checker_.reset();
-    checked_.reset();
+    worker.checker.reset();
+    worker.checked.reset();
     throw;
   }
   return now;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <mutex>
@@ -10,13 +11,16 @@
 
 namespace gpu_planning_scene::core
 {
-/// A queue of check requests, with the thread and the checker that answer them.
+/// A queue of check requests, with the thread and the checker that answer them. A second thread with its own checker
+/// relieves the first one: if a request of few states has waited for some milliseconds, because the current batch takes
+/// long, the second thread answers it.
 class CheckQueue
 {
  public:
   /// `max_merged_states`: the largest number of states in a batch of merged requests; 0: requests are not merged.
+  /// `make_relief`: makes the checker of the second thread when it is first needed; null: there is no such thread.
   CheckQueue(const SceneStore& store, CheckServer::MakeChecker make_checker, const CheckServerOptions& options,
-             std::size_t max_merged_states);
+             std::size_t max_merged_states, CheckServer::MakeChecker make_relief = nullptr);
   ~CheckQueue();
 
   /// Makes the checker before the first request arrives. Throws the errors of `make_checker`.
@@ -31,33 +35,42 @@ class CheckQueue
   {
     CheckJob job;
     std::size_t count = 0;
+    std::chrono::steady_clock::time_point submitted;
     std::promise<CheckAnswer> answer;
   };
   using Batch = std::deque<Request>;
+  /// What a thread needs to answer requests.
+  struct Worker
+  {
+    CheckServer::MakeChecker make_checker;
+    BatchSize batch_size;
+    std::shared_ptr<StateChecker> checker = nullptr;
+    std::shared_ptr<const PlanningScene> checked = nullptr;  // the checker's scene
+  };
 
   void run();
+  void relieve();
   Batch nextBatch();
-  void answer(Batch& batch);
-  CheckAnswer check(Batch& batch, std::size_t count);
-  BatchResult checkStates(const std::vector<double>& states, std::size_t count, const std::string& group);
-  void checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer);
+  Batch take(Batch::iterator first, std::size_t max_states);
+  void answer(Batch& batch, Worker& worker);
+  CheckAnswer check(Batch& batch, std::size_t count, Worker& worker);
+  BatchResult checkStates(const std::vector<double>& states, std::size_t count, const std::string& group,
+                          Worker& worker);
+  void checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer, Worker& worker);
   bool isStopping() const;
   std::vector<double> statesOf(Batch& batch, const Snapshot& now) const;
   /// Gives the checker the scene of the job and returns it.
-  Snapshot takeScene(const CheckJob& job);
+  Snapshot takeScene(const CheckJob& job, Worker& worker) const;
   void countAnswered(const CheckAnswer& answer, std::size_t requests);
   void fail(Request& request, std::exception_ptr error);
 
   const SceneStore& store_;
-  const CheckServer::MakeChecker make_checker_;
   const CheckServerOptions options_;
   const std::size_t max_merged_states_;
   const std::size_t width_;
 
-  // Used by the queue's thread only. open() uses them too, before the thread starts.
-  std::shared_ptr<StateChecker> checker_;
-  std::shared_ptr<const PlanningScene> checked_;  // the checker's scene
-  BatchSize batch_size_;
+  Worker worker_;  // used by the queue's thread only. open() uses it too, before the thread starts
+  Worker relief_;  // used by the second thread only; without a function that makes its checker, there is no such thread
 
   mutable std::mutex mutex_;  // guards the members below
   std::condition_variable wake_;
@@ -65,6 +78,7 @@ class CheckQueue
   std::size_t waiting_states_ = 0;
   bool stopping_ = false;
   CheckStatistics statistics_;
-  std::thread thread_;  // last member: the thread uses all members above
+  std::thread thread_;  // last members: the threads use all members above
+  std::thread relief_thread_;
 };
 }  // namespace gpu_planning_scene::core

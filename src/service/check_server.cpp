@@ -20,10 +20,12 @@ bool isSmall(const CheckJob& job, const SceneStore& store)
 }
 }  // namespace
 
-CheckServer::CheckServer(const SceneStore& store, const MakeChecker& make_checker, const CheckServerOptions& options)
+CheckServer::CheckServer(const SceneStore& store, const MakeChecker& make_checker, const CheckServerOptions& options,
+                         const MakeChecker& make_relief)
   : store_(store),
     options_(options),
-    small_(std::make_unique<CheckQueue>(store, make_checker, options, kMergedRequests * options.small_request)),
+    small_(std::make_unique<CheckQueue>(store, make_checker, options, kMergedRequests * options.small_request,
+                                        make_relief)),
     large_(std::make_unique<CheckQueue>(store, make_checker, options, 0))
 {
   small_->open();

@@ -191,7 +191,8 @@ TEST(Benchmark, WritesEveryTableAndTheChartsAreDrawn)
       {"build", {"scene", "method", "load_robot_s", "build_s", "update_s", "peak_host_mib", "device_mib"}},
       {"updates", {"robot", "objects", "method", "updates", "p50_ms", "p99_ms"}},
       {"growth", {"with", "amount", "method", "us_a_state", "build_s", "update_s", "valid_share"}},
-      {"mesh_pairs", {"triangles", "distance_m", "method", "us_a_pose", "wrong"}}};
+      {"mesh_pairs", {"triangles", "distance_m", "method", "us_a_pose", "wrong"}},
+      {"required_distances", {"size_m", "required_m", "p50_us", "steps_a_pose", "of_no_distance"}}};
   for (const auto& [name, columns] : expected)
   {
     const Table table = readTable(folder.path() + "/" + name + ".csv");

@@ -390,6 +390,47 @@ TEST_F(Server, StopEndsALargeRequestAfterItsCurrentSlice)
   EXPECT_EQ(1u, gate.batches().size());
 }
 
+/// The checker of the batches waits at the gate; that of the relief does not.
+TEST_F(Server, RequestsOfFewStatesDoNotWaitForASlowBatch)
+{
+  Gate open_gate;
+  CheckServerOptions roomy = options();
+  roomy.small_request = 50;
+  CheckServer relieved(
+      store,
+      [this](std::shared_ptr<const PlanningScene> scene)
+      { return std::make_shared<GatedChecker>(std::move(scene), gate); },
+      roomy,
+      [&open_gate](std::shared_ptr<const PlanningScene> scene)
+      { return std::make_shared<GatedChecker>(std::move(scene), open_gate); });
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), relieved.submit(job(1)).get().result.valid);
+  EXPECT_EQ(0U, open_gate.checkers()) << "without a slow batch, the relief has nothing to do";
+  gate.close();
+  std::future<CheckAnswer> slow = relieved.submit(job(50));
+  gate.waitForChecks(2);
+  std::future<CheckAnswer> as_slow = relieved.submit(job(50));
+  CheckJob motion = job(2);
+  motion.motions = MotionCheckerOptions();
+  motion.samples = 2;
+  std::future<CheckAnswer> motions = relieved.submit(std::move(motion));
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), relieved.submit(job(1)).get().result.valid);
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), relieved.submit(job(2, -1.0)).get().result.valid);
+  rename("new");
+  EXPECT_EQ((std::vector<std::uint8_t>{0}), relieved.submit(job(1)).get().result.valid) << "in the new scene";
+  CheckJob wrong = job(1);
+  wrong.group = "no such group";
+  std::future<CheckAnswer> error = relieved.submit(std::move(wrong));
+  EXPECT_NE("", errorOf(error));
+  EXPECT_EQ(2U, gate.batches().size());
+  EXPECT_EQ(2U, relieved.statistics().waiting_requests);
+  gate.open();
+  EXPECT_EQ(50U, slow.get().result.valid.size());
+  EXPECT_EQ(50U, as_slow.get().result.valid.size());
+  EXPECT_EQ(1U, motions.get().motions.size());
+  EXPECT_EQ(1U, open_gate.checkers());
+  relieved.stop();
+}
+
 TEST_F(Server, EveryAnswerBelongsToTheRevisionThatItNames)
 {
   std::atomic<bool> done{false};

@@ -1,5 +1,9 @@
 #include "collision/exact/cpu_shape_pair.h"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "collision/exact/winding_number.h"
 #include "collision/geometry/cpu_box_pair.h"
 #include "collision/geometry/primitive_solid.h"
@@ -21,28 +25,46 @@ constexpr double kBoxMargin = 1e-9;  // metres
 // Nodes count as a collision only if they are within the tolerance by this margin, which exceeds their rounding error.
 constexpr double kToleranceMargin = 1e-9;  // metres
 
-// The test of two solids costs about as much as visiting this many nodes.
+// The test of two solids costs about as much as visiting this many nodes, and so does a search for an axis that
+// separates a triangle from a solid.
 constexpr std::uint64_t kStepsOfSolids = 20;
+constexpr std::uint64_t kStepsOfSearch = 200;
 // Boxes whose radius is below this multiple of the float errors are also tested in double: in a mesh with a large
 // reach, the errors exceed the size of many boxes, and the float test would separate hardly any of these boxes.
 constexpr double kSmallBox = 64.0;
 
 bool leafMeetsSolid(const CpuTree& mesh, BoxIndex leaf, const Shape& shape, const Isometry3d& mesh_in_solid,
-                    double required)
+                    double required, CpuShapePair::Scratch& scratch)
 {
+  const std::uint64_t searches = scratch.axis.searches;
   const CpuNode& node = mesh.nodes[mesh.wide.source(leaf)];
   const auto first = mesh.triangles.begin() + node.first;
-  return std::any_of(
-      first, first + node.count,
-      [&](const Triangle& t) {
-        return triangleWithinSolid({mesh_in_solid * t[0], mesh_in_solid * t[1], mesh_in_solid * t[2]}, shape, required);
-      });
+  const bool meets =
+      std::any_of(first, first + node.count,
+                  [&](const Triangle& t)
+                  {
+                    return triangleWithinSolid({mesh_in_solid * t[0], mesh_in_solid * t[1], mesh_in_solid * t[2]},
+                                               shape, required, &scratch.axis);
+                  });
+  scratch.steps += kStepsOfSearch * (scratch.axis.searches - searches);
+  return meets;
 }
 
-/// An upper bound of the distance of any two points of two boxes, up to the rounding of the centres.
-double distanceAtMost(const WideTree& tree_a, BoxIndex a, const WideTree& tree_b, BoxIndex b, const Isometry3d& b_in_a)
+/// Whether boxes in one frame are farther apart than `distance`. A distance of 0 is tested with kBoxMargin.
+bool areApart(const OrientedBox& a, const OrientedBox& b, double distance)
 {
-  return (b_in_a * tree_b.center(b) - tree_a.center(a)).norm() + tree_a.radius(a) + tree_b.radius(b);
+  return !overlap(a, b, distance) || (distance > kBoxMargin && apartAlongCenters(a, b, distance));
+}
+
+/// Whether the plane across the vector from the nearest point of the solid to the centre of the box is farther than
+/// `distance` from the solid, with the box beyond. `from_solid`: this vector, not 0.
+bool isBeyondSolid(const OrientedBox& box, const Shape& shape, const Isometry3d& box_in_solid,
+                   const Vector3d& from_solid, double distance)
+{
+  const Vector3d normal = from_solid.normalized();
+  const Vector3d along_axes = box.axes.transpose() * (box_in_solid.linear().transpose() * normal);
+  const double least = normal.dot(box_in_solid * box.center) - along_axes.cwiseAbs().dot(box.half);
+  return least - reachAlong(shape, normal) > distance;
 }
 
 /// Whether a component of one mesh lies inside the solid of the other. The surfaces must not meet. Then all points of a
@@ -89,7 +111,7 @@ bool CpuShapePair::collide(const CpuTree& tree_a, const Isometry3d& pose_a, cons
                            const Isometry3d& pose_b, double required, Scratch& scratch) const
 {
   const Isometry3d b_in_a = relativePose(pose_a, pose_b);
-  if (!overlap(tree_a.box, placed(tree_b.box, b_in_a), required + kBoxMargin))
+  if (areApart(tree_a.box, placed(tree_b.box, b_in_a), required + kBoxMargin))
     return false;
   if (tree_a.mesh && tree_b.mesh)
   {
@@ -125,6 +147,7 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
   const double small =
       kSmallBox * floatErrors((around.center - tree.origin()).norm(), around.half.norm() + tree.reach(), margin);
 
+  scratch.axis.direction.setZero();
   scratch.nodes.assign(1, WideTree::kRoot);
   while (!scratch.nodes.empty())
   {
@@ -132,7 +155,7 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
     scratch.nodes.pop_back();
     if (tree.isLeaf(box))
     {
-      if (leafMeetsSolid(mesh, box, shape, mesh_in_solid, required))
+      if (leafMeetsSolid(mesh, box, shape, mesh_in_solid, required, scratch))
         return true;
       continue;
     }
@@ -140,17 +163,22 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
     for (unsigned hits = tests_.overlap(tree.below(box), around_in_floats); hits != 0; hits &= hits - 1)
     {
       const BoxIndex child = tree.child(box, lowestBit(hits));
-      if (tree.radius(child) < small && !overlap(mesh.nodes[tree.source(child)].box, around, margin))
+      const OrientedBox& child_box = mesh.nodes[tree.source(child)].box;
+      if (tree.radius(child) < small && areApart(child_box, around, margin))
         continue;
       if (by_distance)
       {
-        const double distance = distanceToSolid(shape, mesh_in_solid * tree.center(child));
+        const Vector3d from_solid = vectorFromSolid(shape, mesh_in_solid * tree.center(child));
+        const double distance = from_solid.norm();
         const double radius = tree.radius(child) + tree.centerError();
         if (distance > radius + margin)
           continue;
         // All triangles of a node are within `radius` of the node's centre, and each node has a triangle.
-        if (tolerance_ > 0.0 && distance + radius <= near_enough)
+        if (distance + radius <= near_enough)
           return true;
+        // Of a box that is small against the distance, the extent along the axis separates more than the radius.
+        if (margin > radius && distance > margin && isBeyondSolid(child_box, shape, mesh_in_solid, from_solid, margin))
+          continue;
       }
       scratch.nodes.push_back(child);
     }
@@ -179,10 +207,11 @@ bool CpuShapePair::leavesMeet(const CpuTree& a, BoxIndex leaf_a, const CpuTree& 
 /// Simultaneous traversal of two trees. The boxes of each pair overlap; the caller has tested the root boxes. The
 /// larger box of a pair is opened: the boxes below it are tested together.
 ///
-/// With a tolerance, the traversal stops at two nodes that are close enough to count as a collision. Each node has a
-/// triangle, and all points of this triangle are within the node's radius (half the diagonal of its box) of the box's
-/// centre. So the distance of the two triangles is at most the distance of the centres plus both radii. The traversal
-/// stops if this sum is at most the required distance plus the tolerance.
+/// With a required distance or a tolerance, the traversal stops at two nodes that are close enough to count as a
+/// collision. Each node has a triangle, and all points of this triangle are within the node's radius (half the diagonal
+/// of its box) of the box's centre. So the distance of the two triangles is at most the distance of the centres plus
+/// both radii. The traversal stops if this sum is at most the required distance plus the tolerance. It opens the pair
+/// with the nearest centres first, because this pair most likely collides.
 ///
 /// Example: the required distance is 0, two nodes overlap, and their diagonals add up to at most the tolerance. Then
 /// the radii add up to at most half of the tolerance, and so does the distance of the centres. For a required distance
@@ -195,6 +224,8 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
   const WidePlacement in_a(b.wide, b_in_a, a.wide, growth);
   const WidePlacement in_b(a.wide, b_in_a.inverse(), b.wide, growth);
   const double small = kSmallBox * in_a.errors();
+  const bool by_distance = required > 0.0 || tolerance_ > 0.0;
+  std::array<double, kWideSlots> distances;  // of the centres of the pairs that the opened box adds
   scratch.node_pairs.assign(1, {WideTree::kRoot, WideTree::kRoot});
   while (!scratch.node_pairs.empty())
   {
@@ -211,16 +242,27 @@ bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isomet
     const BoxIndex box = open_a ? box_a : box_b;
     const FloatBox other = open_a ? in_a.place(b.wide, box_b) : in_b.place(a.wide, box_a);
     scratch.steps += Scratch::kStepsOfEightBoxes;
+    const std::size_t first = scratch.node_pairs.size();
     for (unsigned hits = tests_.overlap(opened.below(box), other); hits != 0; hits &= hits - 1)
     {
       const BoxIndex child = opened.child(box, lowestBit(hits));
       const std::array<BoxIndex, 2> pair = {open_a ? child : box_a, open_a ? box_b : child};
       if (opened.radius(child) < small &&
-          !overlap(a.nodes[a.wide.source(pair[0])].box, placed(b.nodes[b.wide.source(pair[1])].box, b_in_a), growth))
+          areApart(a.nodes[a.wide.source(pair[0])].box, placed(b.nodes[b.wide.source(pair[1])].box, b_in_a), growth))
         continue;
-      if (tolerance_ > 0.0 && distanceAtMost(a.wide, pair[0], b.wide, pair[1], b_in_a) <= near_enough)
-        return true;
       scratch.node_pairs.push_back(pair);
+      if (!by_distance)
+        continue;
+      const double distance = (b_in_a * b.wide.center(pair[1]) - a.wide.center(pair[0])).norm();
+      if (distance + a.wide.radius(pair[0]) + b.wide.radius(pair[1]) <= near_enough)
+        return true;
+      std::size_t place = scratch.node_pairs.size() - 1 - first;
+      for (; place > 0 && distances[place - 1] < distance; --place)
+      {
+        distances[place] = distances[place - 1];
+        std::swap(scratch.node_pairs[first + place], scratch.node_pairs[first + place - 1]);
+      }
+      distances[place] = distance;
     }
   }
   return false;

@@ -9,6 +9,7 @@
 
 #include "collision/exact/cpu_forest.h"
 #include "collision/exact/wide_tests.h"
+#include "collision/geometry/convex_pair.h"
 
 namespace gpu_planning_scene::core
 {
@@ -44,6 +45,7 @@ class CpuShapePair
     std::vector<NearBoxes> near_boxes;
     std::vector<std::uint32_t> nodes;
     std::uint64_t steps = 0;  // the cost of the pairs so far, in visits of nodes of a binary tree
+    SeparatingAxis axis;      // of the last triangles and solid
 
     // Testing eight boxes costs about as much as visiting this many nodes of a binary tree.
     static constexpr std::uint64_t kStepsOfEightBoxes = 2;

@@ -36,9 +36,23 @@ unsigned GPS_OVERLAP_TEST(const WideNode& node, const FloatBox& box)
     t[i] = x * between[0] + y * between[1] + z * between[2];
     apart |= magnitude(t[i]) > a[i] + abs_r[i][0] * b[0] + abs_r[i][1] * b[1] + abs_r[i][2] * b[2];
   }
+  Floats along[3];  // the vector between the centres along the axes of `box`
   for (int j = 0; j < 3; ++j)
-    apart |= magnitude(t[0] * r[0][j] + t[1] * r[1][j] + t[2] * r[2][j]) >
-             a[0] * abs_r[0][j] + a[1] * abs_r[1][j] + a[2] * abs_r[2][j] + b[j];
+  {
+    along[j] = magnitude(t[0] * r[0][j] + t[1] * r[1][j] + t[2] * r[2][j]);
+    apart |= along[j] > a[0] * abs_r[0][j] + a[1] * abs_r[1][j] + a[2] * abs_r[2][j] + b[j];
+  }
+  if (box.has_long_distance)
+  {
+    const float d = box.distance;
+    const float bare[3] = {b[0] - d, b[1] - d, b[2] - d};
+    for (int i = 0; i < 3; ++i)
+      apart |= magnitude(t[i]) > a[i] + abs_r[i][0] * bare[0] + abs_r[i][1] * bare[1] + abs_r[i][2] * bare[2] + d;
+    const Floats squared = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
+    const Floats reach_a = a[0] * magnitude(t[0]) + a[1] * magnitude(t[1]) + a[2] * magnitude(t[2]);
+    const Floats reach_b = bare[0] * along[0] + bare[1] * along[1] + bare[2] * along[2];
+    apart |= squared - (reach_a + reach_b) > d * squareRoot(squared);
+  }
   // A comparison with NaN is false, so a box with NaN counts as overlapping.
   int kept = ~bits(apart) & present;
   if (kept == 0)

@@ -126,7 +126,7 @@ Vector3d WideTree::center(BoxIndex box) const
   return origin_ + Vector3d(from.center[0][i], from.center[1][i], from.center[2][i]);
 }
 
-WidePlacement::WidePlacement(const WideTree& from, const Isometry3d& from_in_to, const WideTree& to, double growth)
+WidePlacement::WidePlacement(const WideTree& from, const Isometry3d& from_in_to, const WideTree& to, double required)
 {
   const Vector3d translation = from_in_to * from.origin() - to.origin();
   for (int row = 0; row < 3; ++row)
@@ -135,8 +135,9 @@ WidePlacement::WidePlacement(const WideTree& from, const Isometry3d& from_in_to,
       rotation_[row][column] = static_cast<float>(from_in_to.linear()(row, column));
     translation_[row] = static_cast<float>(translation[row]);
   }
-  errors_ = floatErrors(translation.norm(), from.reach() + to.reach(), growth);
-  growth_ = roundedUp(growth + errors_);
+  errors_ = floatErrors(translation.norm(), from.reach() + to.reach(), required);
+  distance_ = roundedUp(required + errors_);
+  has_long_distance_ = required > errors_;
 }
 
 FloatBox WidePlacement::place(const WideTree& from, BoxIndex box) const
@@ -154,8 +155,10 @@ FloatBox WidePlacement::place(const WideTree& from, BoxIndex box) const
       placed.axes[axis][row] =
           r[0] * node.axes[axis][0][slot] + r[1] * node.axes[axis][1][slot] + r[2] * node.axes[axis][2][slot];
     placed.center[row] = r[0] * x + r[1] * y + r[2] * z + translation_[row];
-    placed.half[row] = node.half[row][slot] + growth_;
+    placed.half[row] = node.half[row][slot] + distance_;
   }
+  placed.distance = distance_;
+  placed.has_long_distance = has_long_distance_;
   return placed;
 }
 
@@ -177,23 +180,25 @@ TriangleBlock WidePlacement::place(const TriangleBlock& block) const
   return placed;
 }
 
-FloatBox floatBox(const OrientedBox& box, const WideTree& tree, double growth)
+FloatBox floatBox(const OrientedBox& box, const WideTree& tree, double required)
 {
   const Vector3d center = box.center - tree.origin();
-  const float added = roundedUp(growth + floatErrors(center.norm(), box.half.norm() + tree.reach(), growth));
+  const double errors = floatErrors(center.norm(), box.half.norm() + tree.reach(), required);
   FloatBox converted;
+  converted.distance = roundedUp(required + errors);
+  converted.has_long_distance = required > errors;
   for (int k = 0; k < 3; ++k)
   {
     for (int axis = 0; axis < 3; ++axis)
       converted.axes[axis][k] = static_cast<float>(box.axes(k, axis));
     converted.center[k] = static_cast<float>(center[k]);
-    converted.half[k] = roundedUp(box.half[k]) + added;
+    converted.half[k] = roundedUp(box.half[k]) + converted.distance;
   }
   return converted;
 }
 
-double floatErrors(double distance, double reaches, double growth)
+double floatErrors(double distance, double reaches, double required)
 {
-  return kFloatErrors * (2.0 * distance + 3.0 * reaches + growth);
+  return kFloatErrors * (2.0 * distance + 3.0 * reaches + required);
 }
 }  // namespace gpu_planning_scene::core

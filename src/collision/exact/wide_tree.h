@@ -21,7 +21,7 @@ using BoxIndex = std::uint32_t;
 /// A tree of oriented boxes in which a node has up to eight boxes, for a test of all of them at a time (wide bounding
 /// volume hierarchy; Dammertz, Hanika and Keller, "Shallow Bounding Volume Hierarchies", 2008). The numbers of a box
 /// are floats relative to `origin`, so a box contains its triangles only up to rounding. To make up for this,
-/// WidePlacement grows the other box of each comparison.
+/// WidePlacement adds the rounding errors to the required distance of each comparison.
 class WideTree
 {
  public:
@@ -77,31 +77,32 @@ inline unsigned lowestBit(unsigned bits)
   return static_cast<unsigned>(__builtin_ctz(bits));
 }
 
-/// Places boxes and triangles of one wide tree in the frame of another tree, as floats. The boxes are grown by `growth`
-/// and by the rounding errors of both trees and of the tests (docs/error_bounds.md, "Wide trees").
+/// Places boxes and triangles of one wide tree in the frame of another tree, as floats. Their distance is `required`
+/// plus the rounding errors of both trees and of the tests (docs/error_bounds.md, "Wide trees").
 class WidePlacement
 {
  public:
-  /// For boxes of `from`, at the pose `from_in_to`, in the frame of `to`. `growth`: metres, on all sides.
-  WidePlacement(const WideTree& from, const Eigen::Isometry3d& from_in_to, const WideTree& to, double growth);
+  /// For boxes of `from`, at the pose `from_in_to`, in the frame of `to`. `required`: metres.
+  WidePlacement(const WideTree& from, const Eigen::Isometry3d& from_in_to, const WideTree& to, double required);
 
   FloatBox place(const WideTree& from, BoxIndex box) const;
   TriangleBlock place(const TriangleBlock& block) const;
-  /// `growth` plus the rounding errors.
-  float distance() const { return growth_; }
+  /// `required` plus the rounding errors.
+  float distance() const { return distance_; }
   double errors() const { return errors_; }  ///< see floatErrors
 
  private:
   float rotation_[3][3];  // rows
   float translation_[3];
   double errors_;
-  float growth_;
+  float distance_;
+  bool has_long_distance_;
 };
 
-/// A box in the frame of `tree`'s shape, as floats relative to the tree's origin, grown as by WidePlacement.
-FloatBox floatBox(const OrientedBox& box, const WideTree& tree, double growth);
+/// A box in the frame of `tree`'s shape, as floats relative to the tree's origin, with a distance as by WidePlacement.
+FloatBox floatBox(const OrientedBox& box, const WideTree& tree, double required);
 
-/// The rounding errors by which WidePlacement and floatBox grow a box. `distance`: of the origins. `reaches`: the sum
-/// of both reaches.
-double floatErrors(double distance, double reaches, double growth);
+/// The rounding errors that WidePlacement and floatBox add to the required distance. `distance`: of the origins.
+/// `reaches`: the sum of both reaches.
+double floatErrors(double distance, double reaches, double required);
 }  // namespace gpu_planning_scene::core

@@ -10,7 +10,8 @@
 
 // Two methods. The algorithm of Gilbert, Johnson and Keerthi (1988), in double, proves the answer for nearly all pairs.
 // If the distance is within rounding of the required distance, the direction between the nearest points is mostly
-// rounding error. A search for a separating direction, which always ends, then decides.
+// rounding error. A search for a separating direction, which always ends, then decides. The search takes a hundred
+// times longer, so the direction that separated the pair before is tried first.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -40,6 +41,13 @@ class MinkowskiDifference
   /// vector.
   double rounding() const { return 32.0 * kEpsilon * size_; }
 
+  /// Whether a plane across the direction certainly separates the difference from the origin, at a larger distance than
+  /// `distance`. False for the direction 0.
+  bool isApartAlong(const Vector3d& direction, double distance) const
+  {
+    return direction.dot(nearestAlong(direction)) > (distance + rounding()) * direction.norm();
+  }
+
  private:
   const Convex& a_;
   const Convex& b_;
@@ -57,15 +65,16 @@ enum class ConvexVerdict
 
 /// Sets `nearest` to the nearest point of the difference that was found. The verdicts are proven. Within: a point of
 /// the difference is within `distance` of the origin. Apart: a plane at a larger distance separates the difference from
-/// the origin.
+/// the origin, and `nearest` is its normal.
 ConvexVerdict decideByDescent(const MinkowskiDifference& difference, double distance, const Vector3d& guess,
                               Vector3d& nearest)
 {
   const double rounding = difference.rounding();
-  nearest = difference.nearestAlong(guess);
-  if (guess.dot(nearest) > (distance + rounding) * guess.norm())
+  const Vector3d first = difference.nearestAlong(guess);
+  nearest = guess;
+  if (guess.dot(first) > (distance + rounding) * guess.norm())
     return ConvexVerdict::Apart;
-  Simplex simplex(nearest);
+  Simplex simplex(first);
   for (int i = 0; i < kMaxIterations; ++i)
   {
     nearest = simplex.nearest();
@@ -103,8 +112,20 @@ class DirectionSearch
     return maximum(along_v, reach, step) > 0.0;
   }
 
+  /// The direction with the largest value so far.
+  const Vector3d& best() const { return best_; }
+
  private:
-  double excess(const Vector3d& n) const { return n.dot(difference_.nearestAlong(n)) - distance_ * n.norm(); }
+  double excess(const Vector3d& n)
+  {
+    const double value = n.dot(difference_.nearestAlong(n)) - distance_ * n.norm();
+    if (value > most_)
+    {
+      most_ = value;
+      best_ = n;
+    }
+    return value;
+  }
 
   /// The maximum of a concave function on [-reach, reach]. Stops early at a value that is certainly above 0.
   template <class Function>
@@ -142,13 +163,14 @@ class DirectionSearch
 
   const MinkowskiDifference& difference_;
   double distance_;
+  double most_ = -std::numeric_limits<double>::infinity();
+  Vector3d best_ = Vector3d::Zero();
 };
 
 /// `near` is a point of the difference; its distance from the origin is more than `distance`, up to rounding. Each
 /// separating direction n fulfils n . near > distance |n|.
-bool isSeparable(const MinkowskiDifference& difference, double distance, const Vector3d& near)
+bool isSeparable(const MinkowskiDifference& difference, double distance, const Vector3d& near, DirectionSearch& search)
 {
-  DirectionSearch search(difference, distance);
   const double length = near.norm();
   const Vector3d m = near / length;
   const Vector3d u = m.unitOrthogonal();
@@ -201,14 +223,29 @@ double convexDistance(const Convex& a, const Convex& b, const Vector3d& from_b)
   return length;
 }
 
-bool convexWithin(const Convex& a, const Convex& b, double distance, const Vector3d& from_b)
+bool convexWithin(const Convex& a, const Convex& b, double distance, const Vector3d& from_b, SeparatingAxis* axis)
 {
   const MinkowskiDifference difference(a, b);
   if (difference.center().norm() > difference.radius() + distance + difference.rounding())
     return false;
+  if (axis && difference.isApartAlong(axis->direction, distance))
+    return false;
   Vector3d nearest;
   const ConvexVerdict verdict = decideByDescent(difference, distance, from_b, nearest);
-  return verdict == ConvexVerdict::Undecided ? !isSeparable(difference, distance, nearest)
-                                             : verdict == ConvexVerdict::Within;
+  if (verdict == ConvexVerdict::Within)
+    return true;
+  Vector3d normal = nearest;
+  if (verdict == ConvexVerdict::Undecided)
+  {
+    DirectionSearch search(difference, distance);
+    if (axis)
+      ++axis->searches;
+    if (!isSeparable(difference, distance, nearest, search))
+      return true;
+    normal = search.best();
+  }
+  if (axis)
+    axis->direction = normal;
+  return false;
 }
 }  // namespace gpu_planning_scene::core

@@ -166,6 +166,16 @@ Vector3d halfExtents(const Shape& solid)
                     solid);
 }
 
+Vector3d vectorFromSolid(const Shape& solid, const Vector3d& point)
+{
+  if (const Sphere* sphere = std::get_if<Sphere>(&solid))
+  {
+    const double length = point.norm();
+    return length > sphere->radius ? Vector3d((1.0 - sphere->radius / length) * point) : Vector3d::Zero();
+  }
+  return fromSolid(solid, point);
+}
+
 double distanceToSolid(const Shape& solid, const Vector3d& point)
 {
   if (const Sphere* sphere = std::get_if<Sphere>(&solid))
@@ -221,7 +231,7 @@ double reachAlong(const Shape& solid, const Vector3d& direction)
   return direction.dot(farthestOfSolid(solid, direction));
 }
 
-bool triangleWithinSolid(const Triangle& triangle, const Shape& solid, double required)
+bool triangleWithinSolid(const Triangle& triangle, const Shape& solid, double required, SeparatingAxis* axis)
 {
   const double distance = required + kSlack;
   if (const Sphere* sphere = std::get_if<Sphere>(&solid))
@@ -233,7 +243,7 @@ bool triangleWithinSolid(const Triangle& triangle, const Shape& solid, double re
   if (from_center <= required)
     return true;
   return from_center <= convex.radius() + 2.0 * distance &&
-         convexWithin(convex, ConvexSolid(solid), distance, to_center);
+         convexWithin(convex, ConvexSolid(solid), distance, to_center, axis);
 }
 
 bool solidsWithin(const Shape& a, const Shape& b, const Eigen::Isometry3d& b_in_a, double required)

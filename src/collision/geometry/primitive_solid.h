@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "collision/geometry/convex_pair.h"
 #include "collision/geometry/triangle_pair.h"
 #include "gpu_planning_scene/shapes.h"
 
@@ -15,6 +16,9 @@ bool isMesh(const Shape& shape);
 
 /// Half lengths of the smallest axis-aligned box that is centred at the origin and contains the solid.
 Eigen::Vector3d halfExtents(const Shape& solid);
+
+/// The vector from the nearest point of the solid to a point, in the solid's frame; 0 inside.
+Eigen::Vector3d vectorFromSolid(const Shape& solid, const Eigen::Vector3d& point);
 
 /// The distance of a point from the solid, in the solid's frame; 0 inside.
 double distanceToSolid(const Shape& solid, const Eigen::Vector3d& point);
@@ -31,8 +35,9 @@ Eigen::Vector3d farthestOfSolid(const Shape& solid, const Eigen::Vector3d& direc
 double reachAlong(const Shape& solid, const Eigen::Vector3d& direction);
 
 /// Whether a closed triangle and a solid with a required distance collide. The triangle is in the solid's frame. A
-/// triangle inside the solid collides. The result does not depend on the order of the vertices.
-bool triangleWithinSolid(const Triangle& triangle, const Shape& solid, double required);
+/// triangle inside the solid collides. The result does not depend on the order of the vertices. `axis`: from an earlier
+/// triangle of the same mesh, see convexWithin(); null: none.
+bool triangleWithinSolid(const Triangle& triangle, const Shape& solid, double required, SeparatingAxis* axis = nullptr);
 
 /// Whether two solids with a required distance collide; `b_in_a` is the pose of `b` in the frame of `a`.
 bool solidsWithin(const Shape& a, const Shape& b, const Eigen::Isometry3d& b_in_a, double required);

@@ -28,6 +28,7 @@ constexpr std::size_t kSurfaceCandidates = 300;
 constexpr std::size_t kSamples = 1500;  // of the surface, and as many of the solid
 constexpr int kBisections = 9;
 constexpr int kEnclosingSteps = 2000;
+constexpr unsigned kPartsPerStopTest = 1000;
 constexpr double kHalfDiagonal = 0.8660254037844387;  // of a cube of edge length 1
 constexpr double kRounding = 1e-9;                    // metres: exceeds the rounding error of the radii
 
@@ -155,11 +156,13 @@ struct Fit
 };
 
 /// The centre of a small ball around points (Badoiu and Clarkson, "Smaller core-sets for balls", 2003).
-Vector3d enclosingCenter(const std::vector<Vector3d>& points)
+Vector3d enclosingCenter(const std::vector<Vector3d>& points, const Stopped& stopped)
 {
+  StopTest end_if_stopped(stopped);
   Vector3d center = points.front();
   for (int step = 1; step <= kEnclosingSteps; ++step)
   {
+    end_if_stopped();
     const auto farthest = std::max_element(points.begin(), points.end(),
                                            [&center](const Vector3d& a, const Vector3d& b)
                                            { return (a - center).squaredNorm() < (b - center).squaredNorm(); });
@@ -206,8 +209,10 @@ CoverBall certified(const CpuTree& tree, const ShapeSamples& samples, const Fit&
 }
 }  // namespace
 
-BallCover coverOf(const CpuTree& tree, const ShapeSamples& samples, double sagitta)
+BallCover coverOf(const CpuTree& tree, const ShapeSamples& samples, double sagitta, const Stopped& stopped)
 {
+  StopTest end_if_stopped(stopped);
+  StopTest end_part_if_stopped(stopped, kPartsPerStopTest);
   const std::vector<SolidCell> candidates = candidatesOf(tree, samples);
   const GapTable gaps(samples, candidates);
   BallCover cover;
@@ -216,7 +221,7 @@ BallCover coverOf(const CpuTree& tree, const ShapeSamples& samples, double sagit
   {
     std::vector<Fit> fits;
     if (level == 0)
-      fits.push_back({enclosingCenter(samples.points), 0.0});
+      fits.push_back({enclosingCenter(samples.points, stopped), 0.0});
     else
     {
       float low = 0.0F;
@@ -224,6 +229,7 @@ BallCover coverOf(const CpuTree& tree, const ShapeSamples& samples, double sagit
       std::vector<std::size_t> chosen{0};
       for (int step = 0; step < kBisections; ++step)
       {
+        end_if_stopped();
         const float gap = 0.5F * (low + high);
         const std::vector<std::size_t> found = gaps.cover(gap, kCoverBalls[level]);
         (found.empty() ? low : high) = gap;
@@ -234,19 +240,25 @@ BallCover coverOf(const CpuTree& tree, const ShapeSamples& samples, double sagit
         fits.push_back({candidates[candidate].center, candidates[candidate].depth});
     }
     for (const Triangle& piece : samples.pieces)
+    {
+      end_part_if_stopped();
       contain(fits,
               [&piece](const Vector3d& center)
               {
                 return std::sqrt(std::max({(piece[0] - center).squaredNorm(), (piece[1] - center).squaredNorm(),
                                            (piece[2] - center).squaredNorm()}));
               });
+    }
     for (const SolidCell& cell : samples.cells)
       contain(
           fits,
           [&](const Vector3d& center) { return (cell.center - center).norm() + kHalfDiagonal * samples.grid.cell; });
     sortBySplits(fits.begin(), fits.end(), [](const Fit& fit) { return fit.center; });
     for (const Fit& fit : fits)
+    {
+      end_if_stopped();
       cover.levels[level].push_back(certified(tree, samples, fit, sagitta));
+    }
   }
   if (hasSolid(tree) && tree.components.components.size() <= 1)  // a primitive has no components
     for (const auto& level : cover.levels)

@@ -37,6 +37,7 @@ struct BallCover
   double thickness = 0.0;
 };
 
-/// The cover of a tree's shape. `samples`: of the tree; `sagitta`: see Tessellation. Takes about 0.2 s.
-BallCover coverOf(const CpuTree& tree, const ShapeSamples& samples, double sagitta);
+/// The cover of a tree's shape. `samples`: of the tree; `sagitta`: see Tessellation. Takes about 0.2 s. Throws
+/// ProofsStopped.
+BallCover coverOf(const CpuTree& tree, const ShapeSamples& samples, double sagitta, const Stopped& stopped = {});
 }  // namespace gpu_planning_scene::core

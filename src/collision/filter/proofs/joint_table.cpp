@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <deque>
 #include <utility>
 
 #include "collision/filter/proofs/joint_chain.h"
@@ -11,8 +13,9 @@
 
 // The range of the variables is halved until a box of joint values is proven to be apart or colliding, or is a single
 // cell. If the surfaces stay apart in a whole box, containment cannot change within it either, so the middle of the box
-// decides about containment. The halving is that of R. A. Brooks, T. Lozano-Perez: A subdivision algorithm in
-// configuration space for findpath with rotation. IJCAI 1983.
+// decides about containment. Large boxes come first, so that they have their proofs if the steps run out. The halving
+// is that of R. A. Brooks, T. Lozano-Perez: A subdivision algorithm in configuration space for findpath with rotation.
+// IJCAI 1983.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -25,11 +28,23 @@ constexpr double kLargestMove =
     0.5;  // metres: boxes with larger displacements prove nothing, so they are halved at once
 constexpr double kBallMargin = 1e-8;  // metres: exceeds the rounding error of distances
 
+// A table ends after so many steps, which take up to a second. A step is a visit of two nodes. The tests of balls and
+// points in a box of joint values take as long as kStepsOfBox steps.
+constexpr std::uint64_t kMostTableSteps = 5'000'000;
+constexpr std::uint64_t kStepsOfBox = 200;
+
 class TableMaker
 {
  public:
-  TableMaker(const RobotModel& robot, const TableInstance& a, const TableInstance& b, const CpuShapePair& pairs)
-    : robot_(robot), a_(a), b_(b), pairs_(pairs), state_(robot.defaultState()), poses_(robot.links().size())
+  TableMaker(const RobotModel& robot, const TableInstance& a, const TableInstance& b, const CpuShapePair& pairs,
+             const Stopped& stopped)
+    : robot_(robot),
+      a_(a),
+      b_(b),
+      pairs_(pairs),
+      stopped_(stopped),
+      state_(robot.defaultState()),
+      poses_(robot.links().size())
   {
   }
 
@@ -64,25 +79,36 @@ class TableMaker
     return table_.variables.size() == 1 ? 1U : static_cast<std::size_t>(table_.variables[1].cells);
   }
 
-  void fill(const Box& box)
+  void fill(const Box& all)
   {
-    const Proof proof = proofOf(box);
-    const std::array<int, 2> sizes = {box.end[0] - box.begin[0], box.end[1] - box.begin[1]};
-    if (proof != Proof::None)
+    StopTest end_if_stopped(stopped_);
+    std::deque<Box> open = {all};
+    while (!open.empty() && steps_ < kMostTableSteps)
     {
-      for (int i = box.begin[0]; i < box.end[0]; ++i)
-        for (int j = box.begin[1]; j < box.end[1]; ++j)
-          table_.cells[static_cast<std::size_t>(i) * columns() + static_cast<std::size_t>(j)] = proof;
-      return;
+      end_if_stopped();
+      const Box box = open.front();
+      open.pop_front();
+      const Proof proof = proofOf(box);
+      const std::array<int, 2> sizes = {box.end[0] - box.begin[0], box.end[1] - box.begin[1]};
+      if (proof != Proof::None)
+        setCells(box, proof);
+      else if (sizes[0] > 1 || sizes[1] > 1)
+      {
+        const std::size_t longer = sizes[0] >= sizes[1] ? 0 : 1;
+        Box first = box;
+        Box second = box;
+        first.end[longer] = second.begin[longer] = box.begin[longer] + sizes[longer] / 2;
+        open.push_back(first);
+        open.push_back(second);
+      }
     }
-    if (sizes[0] == 1 && sizes[1] == 1)
-      return;
-    const std::size_t longer = sizes[0] >= sizes[1] ? 0 : 1;
-    Box first = box;
-    Box second = box;
-    first.end[longer] = second.begin[longer] = box.begin[longer] + sizes[longer] / 2;
-    fill(first);
-    fill(second);
+  }
+
+  void setCells(const Box& box, Proof proof)
+  {
+    for (int i = box.begin[0]; i < box.end[0]; ++i)
+      for (int j = box.begin[1]; j < box.end[1]; ++j)
+        table_.cells[static_cast<std::size_t>(i) * columns() + static_cast<std::size_t>(j)] = proof;
   }
 
   Proof proofOf(const Box& box)
@@ -102,13 +128,16 @@ class TableMaker
     const Isometry3d b_in_a = relativePose(pose_a, pose_b);
     if (displacementBound(axes, b_in_a * b_.tree->center, 0.0) > kLargestMove)
       return Proof::None;
+    steps_ += kStepsOfBox;
     if (innerBallsMeet(b_in_a, axes) || penetrates(b_, a_, b_in_a, axes) ||
         penetrates(a_, b_, b_in_a.inverse(), seenFrom(b_in_a, axes)))
       return Proof::Colliding;
-    if (surfacesApartWhileMoving(*a_.tree, *b_.tree, b_in_a, axes, a_.sagitta + b_.sagitta) &&
-        !pairs_.collide(a_.instance->tree, pose_a, b_.instance->tree, pose_b, 0.0, scratch_))
-      return Proof::Apart;
-    return Proof::None;
+    if (!surfacesApartWhileMoving(*a_.tree, *b_.tree, b_in_a, axes, a_.sagitta + b_.sagitta, steps_, stopped_))
+      return Proof::None;
+    const std::uint64_t before = scratch_.steps;
+    const bool collide = pairs_.collide(a_.instance->tree, pose_a, b_.instance->tree, pose_b, 0.0, scratch_);
+    steps_ += scratch_.steps - before + a_.tree->components.components.size() + b_.tree->components.components.size();
+    return collide ? Proof::None : Proof::Apart;
   }
 
   std::vector<JointAxis> axesIn(const Isometry3d& frame, const std::array<double, 2>& travel) const
@@ -170,6 +199,8 @@ class TableMaker
   const TableInstance& a_;
   const TableInstance& b_;
   const CpuShapePair& pairs_;
+  const Stopped& stopped_;
+  std::uint64_t steps_ = 0;
   std::vector<const Joint*> joints_;  // between the bodies, without fixed joints
   JointTable table_;
   std::vector<double> state_;
@@ -179,8 +210,8 @@ class TableMaker
 }  // namespace
 
 std::optional<JointTable> makeJointTable(const RobotModel& robot, const TableInstance& a, const TableInstance& b,
-                                         const CpuShapePair& pairs)
+                                         const CpuShapePair& pairs, const Stopped& stopped)
 {
-  return TableMaker(robot, a, b, pairs).make();
+  return TableMaker(robot, a, b, pairs, stopped).make();
 }
 }  // namespace gpu_planning_scene::core

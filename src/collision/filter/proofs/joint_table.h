@@ -8,6 +8,7 @@
 #include "collision/filter/proofs/ball_cover.h"
 #include "collision/filter/proofs/proof.h"
 #include "collision/filter/proofs/solid_depth.h"
+#include "collision/filter/proofs/stopped.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/robot_model.h"
 
@@ -44,7 +45,7 @@ struct TableInstance
 
 /// Makes the table of a self pair. No value if the pair depends on more than two variables, on a planar or floating
 /// joint, or on a joint without limits that is not continuous. `pairs` decides whether two trees collide. Takes up to a
-/// second.
+/// second: after a fixed number of steps, the cells that are still open stay without a proof. Throws ProofsStopped.
 std::optional<JointTable> makeJointTable(const RobotModel& robot, const TableInstance& a, const TableInstance& b,
-                                         const CpuShapePair& pairs);
+                                         const CpuShapePair& pairs, const Stopped& stopped = {});
 }  // namespace gpu_planning_scene::core

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 
 #include "collision/geometry/cpu_box_pair.h"
 
@@ -18,6 +17,7 @@ using Eigen::Vector3d;
 
 constexpr double kBoundMargin = 1e-8;      // metres: exceeds the rounding error of bounds and distances
 constexpr std::size_t kMostSteps = 20000;  // pairs of nodes
+constexpr unsigned kStepsPerStopTest = 64;
 
 bool leavesApart(const CpuTree& a, const CpuNode& node_a, const CpuTree& b, const CpuNode& node_b,
                  const Isometry3d& b_in_a, const std::vector<JointAxis>& axes, double margin)
@@ -53,20 +53,25 @@ double displacementBound(const std::vector<JointAxis>& axes, const Vector3d& cen
 }
 
 bool surfacesApartWhileMoving(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a,
-                              const std::vector<JointAxis>& axes, double required)
+                              const std::vector<JointAxis>& axes, double required, std::uint64_t& steps,
+                              const Stopped& stopped)
 {
   const double margin = required + kBoundMargin;
+  StopTest end_if_stopped(stopped, kStepsPerStopTest);
   std::vector<std::array<std::uint32_t, 2>> pairs(1, {0, 0});
-  for (std::size_t steps = 0; !pairs.empty(); ++steps)
+  for (std::size_t visited = 0; !pairs.empty(); ++visited)
   {
-    if (steps == kMostSteps)
+    if (visited == kMostSteps)
       return false;
+    end_if_stopped();
+    ++steps;
     const auto [index_a, index_b] = pairs.back();
     pairs.pop_back();
     const CpuNode& node_a = a.nodes[index_a];
     const CpuNode& node_b = b.nodes[index_b];
     const OrientedBox box = placed(node_b.box, b_in_a);
-    if (!overlap(node_a.box, box, displacementBound(axes, box.center, box.half.norm()) + margin))
+    const double distance = displacementBound(axes, box.center, box.half.norm()) + margin;
+    if (!overlap(node_a.box, box, distance) || apartAlongCenters(node_a.box, box, distance))
       continue;
     if (node_a.isLeaf() && node_b.isLeaf())
     {

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include "collision/exact/cpu_tree.h"
+#include "collision/filter/proofs/stopped.h"
 
 namespace gpu_planning_scene::core
 {
@@ -26,8 +28,9 @@ double displacementBound(const std::vector<JointAxis>& axes, const Eigen::Vector
 
 /// Whether the surfaces of two bodies are proven apart for all joint values within the travel: each part of the second
 /// body is farther from the first body than the part can move. `b_in_a`: pose of b in the frame of a for the middle
-/// values. `required`: metres by which the surfaces must be apart. Gives up, with false, after a limited number of node
-/// pairs.
+/// values. `required`: metres by which the surfaces must be apart. Gives up, with false, after 20,000 node pairs. Adds
+/// the number of visited node pairs to `steps`. Throws ProofsStopped.
 bool surfacesApartWhileMoving(const CpuTree& a, const CpuTree& b, const Eigen::Isometry3d& b_in_a,
-                              const std::vector<JointAxis>& axes, double required);
+                              const std::vector<JointAxis>& axes, double required, std::uint64_t& steps,
+                              const Stopped& stopped);
 }  // namespace gpu_planning_scene::core

@@ -1,24 +1,32 @@
 #include "collision/filter/proofs/proof_worker.h"
 
+#include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <exception>
+#include <iterator>
 #include <mutex>
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include <pthread.h>
 #include <sched.h>
 #include <sys/resource.h>
 
-// One thread of the process takes the jobs of all checkers one after the other, with a low priority, because checks
-// come first. Own method.
+// One thread of the process takes the jobs of all checkers in turns, with a low priority, because checks come first. So
+// the proofs of one robot do not wait for all tables of another robot. Own method.
 namespace gpu_planning_scene::core
 {
 namespace
 {
+using Clock = std::chrono::steady_clock;
+
 constexpr int kNice = 5;  // of the threads that make proofs, added to that of the process
+// If other jobs wait, a job ends its turn after this time, between two covers or tables.
+constexpr std::chrono::milliseconds kTurnTime{500};
 
 /// Lowers the priority of this thread and of the threads that it starts: checks come first. The thread may have been
 /// started by a real-time thread, whose policy it then has.
@@ -31,7 +39,7 @@ void lowerPriority()
 }
 }  // namespace
 
-/// A thread that makes proofs, one job after the other.
+/// A thread that makes proofs. The jobs take turns.
 class ProofWorker
 {
  public:
@@ -60,9 +68,16 @@ class ProofWorker
                                 std::shared_ptr<const CpuForest> forest, bool makes)
   {
     auto job = std::make_shared<ProofJob>();
+    std::vector<Task> abandoned;  // may hold the last references to large objects, so it ends after the lock
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      tasks_.push_back({job, std::move(robot), std::move(problem), std::move(forest), makes});
+      const auto first =
+          std::stable_partition(tasks_.begin(), tasks_.end(), [](const Task& task) { return !task.job.expired(); });
+      abandoned.assign(std::make_move_iterator(first), std::make_move_iterator(tasks_.end()));
+      tasks_.erase(first, tasks_.end());
+      // To load proofs takes milliseconds, so these jobs come first.
+      tasks_.insert(makes ? tasks_.end() : tasks_.begin(),
+                    {job, std::move(robot), std::move(problem), std::move(forest), makes});
       try
       {
         if (!thread_.joinable())
@@ -108,28 +123,47 @@ class ProofWorker
       tasks_.pop_front();
       busy_ = true;
       lock.unlock();
-      const auto is_stopped = [&] { return ending_ || task.job.expired(); };
-      const auto publish = [&](RobotProofs proofs)
-      {
-        if (const std::shared_ptr<ProofJob> job = task.job.lock())
-          std::atomic_store(&job->proofs_, std::make_shared<const RobotProofs>(std::move(proofs)));
-      };
-      try
-      {
-        if (task.makes)
-          prover_.prove(*task.robot, *task.problem, task.forest, ProofCache::ofUser(), publish, is_stopped);
-        else
-          prover_.load(*task.robot, *task.problem, task.forest, ProofCache::ofUser(), publish, is_stopped);
-      }
-      catch (const std::exception&)
-      {
-        // Without proofs, the exact checker decides all states.
-      }
-      task = {};  // the last references to large objects may end here, not under the lock
+      const bool is_complete = run(task);
+      const bool is_over = is_complete || task.job.expired();
+      if (is_over)
+        task = {};  // the last references to large objects may end here, not under the lock
       lock.lock();
+      if (!is_over)
+        tasks_.push_back(std::move(task));
       busy_ = false;
       changed_.notify_all();
     }
+  }
+
+  /// Gives a job its turn. Returns whether there is nothing more to do.
+  bool run(const Task& task)
+  {
+    const Clock::time_point start = Clock::now();
+    const auto is_stopped = [&] { return ending_ || task.job.expired(); };
+    const auto is_paused = [&] { return Clock::now() - start > kTurnTime && isAnyWaiting(); };
+    const auto publish = [&](RobotProofs proofs)
+    {
+      if (const std::shared_ptr<ProofJob> job = task.job.lock())
+        std::atomic_store(&job->proofs_, std::make_shared<const RobotProofs>(std::move(proofs)));
+    };
+    try
+    {
+      if (task.makes)
+        return prover_.prove(*task.robot, *task.problem, task.forest, ProofCache::ofUser(), publish, is_stopped,
+                             is_paused);
+      prover_.load(*task.robot, *task.problem, task.forest, ProofCache::ofUser(), publish, is_stopped);
+    }
+    catch (const std::exception&)
+    {
+      // Without proofs, the exact checker decides all states.
+    }
+    return true;
+  }
+
+  bool isAnyWaiting()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::any_of(tasks_.begin(), tasks_.end(), [](const Task& task) { return !task.job.expired(); });
   }
 
   std::mutex mutex_;  // guards the tasks and busy_

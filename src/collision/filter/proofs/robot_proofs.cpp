@@ -1,6 +1,7 @@
 #include "collision/filter/proofs/robot_proofs.h"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <utility>
 
@@ -21,17 +22,27 @@ bool isSame(const std::weak_ptr<T>& a, const std::weak_ptr<T>& b)
   return !a.owner_before(b) && !b.owner_before(a);
 }
 
-/// Calls `work` for the numbers below `count` on all cores, until `stopped` returns true.
+/// Calls `work` for the numbers below `count` on all cores, until the work is stopped or paused. Returns whether all
+/// calls were made and came to their end.
 template <class Work>
-void forEachUntil(const RobotProver::Stopped& stopped, std::size_t count, const Work& work)
+bool forEachUntil(const Stopped& stopped, const Stopped& paused, std::size_t count, const Work& work)
 {
-  parallelFor(
-      count, 1,
-      [&](std::size_t i, std::size_t)
-      {
-        if (!stopped())
-          work(i);
-      });
+  std::atomic<bool> is_complete{true};
+  parallelFor(count, 1,
+              [&](std::size_t i, std::size_t)
+              {
+                try
+                {
+                  if (!isStopped(stopped) && (i == 0 || !isStopped(paused)))
+                    return work(i);
+                }
+                catch (const ProofsStopped&)
+                {
+                  // What the other threads have made is kept.
+                }
+                is_complete = false;
+              });
+  return is_complete;
 }
 }  // namespace
 
@@ -62,10 +73,11 @@ std::shared_ptr<RobotProver::KnownShape> RobotProver::shape(const std::shared_pt
   return *found;
 }
 
-void RobotProver::makeCover(KnownShape& shape, const CpuTree& tree, double sagitta, const ProofCache& cache)
+void RobotProver::makeCover(KnownShape& shape, const CpuTree& tree, double sagitta, const ProofCache& cache,
+                            const Stopped& stopped)
 {
-  const ShapeSamples samples = samplesOf(tree);
-  shape.cover = std::make_shared<const BallCover>(coverOf(tree, samples, sagitta));
+  const ShapeSamples samples = samplesOf(tree, stopped);
+  shape.cover = std::make_shared<const BallCover>(coverOf(tree, samples, sagitta, stopped));
   shape.depth.emplace(samples, sagitta);
   cache.store(coverKey(shape.hash), *shape.cover);
 }
@@ -127,10 +139,10 @@ void RobotProver::findTables(const RobotModel& robot, const CollisionProblem& pr
   }
 }
 
-/// Makes the missing tables of `found`.
-void RobotProver::makeTables(const RobotModel& robot, const CollisionProblem& problem,
+/// Makes the missing tables of `found`. Returns whether all were made.
+bool RobotProver::makeTables(const RobotModel& robot, const CollisionProblem& problem,
                              const std::shared_ptr<const CpuForest>& forest, const ProofCache& cache, Found& found,
-                             const Stopped& stopped)
+                             const Stopped& stopped, const Stopped& paused)
 {
   const auto sagitta_of = [&](const ShapeInstance& instance) { return problem.tessellations[instance.tree].sagitta; };
   std::map<KnownShape*, const ShapeInstance*> without_depth;
@@ -139,14 +151,13 @@ void RobotProver::makeTables(const RobotModel& robot, const CollisionProblem& pr
       if (!found.shapes[number]->depth)
         without_depth.emplace(found.shapes[number].get(), &problem.robot[number]);
   const std::vector<std::pair<KnownShape*, const ShapeInstance*>> shapes(without_depth.begin(), without_depth.end());
-  forEachUntil(stopped, shapes.size(),
-               [&](std::size_t i)
-               {
-                 const auto& [shape, instance] = shapes[i];
-                 shape->depth.emplace(samplesOf(forest->tree(instance->tree)), sagitta_of(*instance));
-               });
-  if (stopped())
-    return;
+  const auto sample = [&](std::size_t i)
+  {
+    const auto& [shape, instance] = shapes[i];
+    shape->depth.emplace(samplesOf(forest->tree(instance->tree), stopped), sagitta_of(*instance));
+  };
+  if (!forEachUntil(stopped, paused, shapes.size(), sample))
+    return false;
 
   const CpuShapePair pairs(forest);
   const auto side = [&](std::uint32_t number)
@@ -157,14 +168,14 @@ void RobotProver::makeTables(const RobotModel& robot, const CollisionProblem& pr
                          sagitta_of(instance)};
   };
   std::vector<std::shared_ptr<const JointTable>> made(found.missing.size());
-  forEachUntil(
-      stopped, found.missing.size(),
-      [&](std::size_t i)
-      {
-        const auto [first, second] = problem.self_pairs[found.missing[i].pair];
-        made[i] = std::make_shared<const JointTable>(makeJointTable(robot, side(first), side(second), pairs).value());
-        cache.store(found.missing[i].key, *made[i]);
-      });
+  const auto make = [&](std::size_t i)
+  {
+    const auto [first, second] = problem.self_pairs[found.missing[i].pair];
+    made[i] =
+        std::make_shared<const JointTable>(makeJointTable(robot, side(first), side(second), pairs, stopped).value());
+    cache.store(found.missing[i].key, *made[i]);
+  };
+  const bool is_complete = forEachUntil(stopped, paused, found.missing.size(), make);
   for (std::size_t i = 0; i < made.size(); ++i)
     if (made[i])
     {
@@ -176,6 +187,7 @@ void RobotProver::makeTables(const RobotModel& robot, const CollisionProblem& pr
                          made[i]});
       found.proofs.tables[found.missing[i].pair] = std::move(made[i]);
     }
+  return is_complete;
 }
 
 void RobotProver::load(const RobotModel& robot, const CollisionProblem& problem,
@@ -186,7 +198,7 @@ void RobotProver::load(const RobotModel& robot, const CollisionProblem& problem,
   Found found;
   for (const ShapeInstance& instance : problem.robot)
   {
-    if (stopped())
+    if (isStopped(stopped))
       return;
     found.shapes.push_back(shape(forest->shared(instance.tree), problem.tessellations[instance.tree].sagitta, cache));
     if (!found.shapes.back()->cover)
@@ -199,42 +211,43 @@ void RobotProver::load(const RobotModel& robot, const CollisionProblem& problem,
     publish(std::move(found.proofs));
 }
 
-void RobotProver::prove(const RobotModel& robot, const CollisionProblem& problem,
+bool RobotProver::prove(const RobotModel& robot, const CollisionProblem& problem,
                         const std::shared_ptr<const CpuForest>& forest, const ProofCache& cache, const Publish& publish,
-                        const Stopped& stopped)
+                        const Stopped& stopped, const Stopped& paused)
 {
   forgetUnused();
   Found found;
   std::map<KnownShape*, const ShapeInstance*> without_cover;
   for (const ShapeInstance& instance : problem.robot)
   {
-    if (stopped())
-      return;
+    if (isStopped(stopped))
+      return false;
     found.shapes.push_back(shape(forest->shared(instance.tree), problem.tessellations[instance.tree].sagitta, cache));
     if (!found.shapes.back()->cover)
       without_cover.emplace(found.shapes.back().get(), &instance);
   }
   const std::vector<std::pair<KnownShape*, const ShapeInstance*>> shapes(without_cover.begin(), without_cover.end());
-  forEachUntil(stopped, shapes.size(),
-               [&](std::size_t i)
-               {
-                 const auto& [shape, instance] = shapes[i];
-                 makeCover(*shape, forest->tree(instance->tree), problem.tessellations[instance->tree].sagitta, cache);
-               });
-  if (stopped())
-    return;
+  const auto cover = [&](std::size_t i)
+  {
+    const auto& [shape, instance] = shapes[i];
+    makeCover(*shape, forest->tree(instance->tree), problem.tessellations[instance->tree].sagitta, cache, stopped);
+  };
+  if (!forEachUntil(stopped, paused, shapes.size(), cover))
+    return false;
   for (const std::shared_ptr<KnownShape>& shape : found.shapes)
     found.proofs.covers.push_back(shape->cover);
   findTables(robot, problem, *forest, cache, found);
-  found.proofs.has_all_tables = found.missing.empty();
+  bool is_complete = found.missing.empty();
+  found.proofs.has_all_tables = is_complete;
   publish(found.proofs);
-  if (!found.missing.empty())
+  if (!is_complete)
   {
-    makeTables(robot, problem, forest, cache, found, stopped);
-    found.proofs.has_all_tables = !stopped();
+    is_complete = makeTables(robot, problem, forest, cache, found, stopped, paused);
+    found.proofs.has_all_tables = is_complete;
     publish(std::move(found.proofs));
   }
   if (!shapes.empty() || !found.missing.empty())
     cache.removeOldest();
+  return is_complete;
 }
 }  // namespace gpu_planning_scene::core

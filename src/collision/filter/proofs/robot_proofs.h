@@ -12,6 +12,7 @@
 #include "collision/filter/proofs/joint_table.h"
 #include "collision/filter/proofs/proof_cache.h"
 #include "collision/filter/proofs/proof_key.h"
+#include "collision/filter/proofs/stopped.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/robot_model.h"
 
@@ -40,9 +41,6 @@ class RobotProver
  public:
   /// Receives the proofs.
   using Publish = std::function<void(RobotProofs)>;
-  /// The work ends early if this function returns true. Several threads call it, between parts of the work that take up
-  /// to a second.
-  using Stopped = std::function<bool()>;
 
   /// Publishes the proofs of a problem if all of them are known or in the cache; otherwise nothing. Takes milliseconds.
   void load(const RobotModel& robot, const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
@@ -51,8 +49,12 @@ class RobotProver
   /// Takes proofs from the cache, makes the missing ones on all cores, and stores them in the cache. This takes seconds
   /// for a new robot. Publishes as soon as it has all covers, with the tables that are known or in the cache. If tables
   /// are missing, it publishes again when they are made.
-  void prove(const RobotModel& robot, const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
-             const ProofCache& cache, const Publish& publish, const Stopped& stopped);
+  ///
+  /// If `stopped` returns true, the work ends within milliseconds. If `paused` returns true, no further cover or table
+  /// is begun; each call makes at least one. Returns whether there is nothing more to make. After a pause, another call
+  /// goes on, because covers and tables are kept.
+  bool prove(const RobotModel& robot, const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
+             const ProofCache& cache, const Publish& publish, const Stopped& stopped, const Stopped& paused = {});
 
  private:
   struct KnownShape
@@ -92,13 +94,14 @@ class RobotProver
   void forgetUnused();
   std::shared_ptr<KnownShape> shape(const std::shared_ptr<const CpuTree>& tree, double sagitta,
                                     const ProofCache& cache);
-  static void makeCover(KnownShape& shape, const CpuTree& tree, double sagitta, const ProofCache& cache);
+  static void makeCover(KnownShape& shape, const CpuTree& tree, double sagitta, const ProofCache& cache,
+                        const Stopped& stopped);
   const KnownTable* known(const RobotModel& robot, const std::array<Side, 2>& sides) const;
   void findTables(const RobotModel& robot, const CollisionProblem& problem, const CpuForest& forest,
                   const ProofCache& cache, Found& found);
-  void makeTables(const RobotModel& robot, const CollisionProblem& problem,
+  bool makeTables(const RobotModel& robot, const CollisionProblem& problem,
                   const std::shared_ptr<const CpuForest>& forest, const ProofCache& cache, Found& found,
-                  const Stopped& stopped);
+                  const Stopped& stopped, const Stopped& paused);
 
   std::vector<std::shared_ptr<KnownShape>> shapes_;
   std::vector<KnownTable> tables_;

@@ -27,6 +27,8 @@ using Eigen::Vector3i;
 constexpr double kCells = 32768.0;            // of the grid, about
 constexpr std::size_t kMostPieces = 200'000;  // in addition to the triangles
 constexpr std::size_t kFewInside = 100;
+constexpr unsigned kTrianglesPerStopTest = 1000;
+constexpr unsigned kPiecesPerStopTest = 100;
 constexpr double kOnSurface = 1e-7;              // metres: exceeds the rounding error of distances
 constexpr std::size_t kWindingTriangles = 4000;  // meshes without a solid: more triangles would take too long
 
@@ -52,15 +54,19 @@ void cut(const Triangle& triangle, double longest, std::size_t most, std::vector
 }
 
 /// Pieces with edges of at most `longest`, or of a multiple of it if slivers would need too many pieces.
-std::vector<Triangle> piecesOf(const std::vector<Triangle>& triangles, double longest)
+std::vector<Triangle> piecesOf(const std::vector<Triangle>& triangles, double longest, const Stopped& stopped)
 {
+  StopTest end_if_stopped(stopped, kTrianglesPerStopTest);
   const std::size_t most = triangles.size() + kMostPieces;
   std::vector<Triangle> pieces;
   for (;; longest *= 2.0)
   {
     pieces.clear();
     for (const Triangle& triangle : triangles)
+    {
+      end_if_stopped();
       cut(triangle, longest, most, pieces);
+    }
     if (pieces.size() <= most)
       return pieces;
   }
@@ -97,25 +103,34 @@ double windingNumber(const std::vector<Triangle>& triangles, const Vector3d& poi
   return sum / (2.0 * kPi);
 }
 
-/// For each cube: whether the surface enters it.
-std::vector<bool> entered(const CubeGrid& grid, const std::vector<Triangle>& pieces)
+/// For each cube: whether the surface enters it. Long pieces are cut again, because the box around a sliver may have
+/// all cubes of the grid.
+std::vector<bool> entered(const CubeGrid& grid, const std::vector<Triangle>& pieces, const Stopped& stopped)
 {
+  StopTest end_if_stopped(stopped, kPiecesPerStopTest);
   std::vector<bool> is_entered(static_cast<std::size_t>(grid.count.prod()), false);
   // Rounding must not hide a piece that touches a cube.
   const Shape cube = Box{Vector3d::Constant(grid.cell * (1.0 + 1e-9))};
+  std::vector<Triangle> parts;
   for (const Triangle& piece : pieces)
   {
-    AlignedBox3d box(piece[0]);
-    box.extend(piece[1]).extend(piece[2]);
-    const Vector3d rounding = Vector3d::Constant(1e-6 * grid.cell);
-    grid.each(grid.cubeOf(box.min() - rounding), grid.cubeOf(box.max() + rounding),
-              [&](const Vector3i& at)
-              {
-                const Vector3d center = grid.centerOf(at);
-                if (!is_entered[grid.numberOf(at)] &&
-                    triangleWithinSolid({piece[0] - center, piece[1] - center, piece[2] - center}, cube, 0.0))
-                  is_entered[grid.numberOf(at)] = true;
-              });
+    parts.clear();
+    cut(piece, grid.cell, kMostPieces, parts);
+    for (const Triangle& part : parts)
+    {
+      end_if_stopped();
+      AlignedBox3d box(part[0]);
+      box.extend(part[1]).extend(part[2]);
+      const Vector3d rounding = Vector3d::Constant(1e-6 * grid.cell);
+      grid.each(grid.cubeOf(box.min() - rounding), grid.cubeOf(box.max() + rounding),
+                [&](const Vector3i& at)
+                {
+                  const Vector3d center = grid.centerOf(at);
+                  if (!is_entered[grid.numberOf(at)] &&
+                      triangleWithinSolid({part[0] - center, part[1] - center, part[2] - center}, cube, 0.0))
+                    is_entered[grid.numberOf(at)] = true;
+                });
+    }
   }
   return is_entered;
 }
@@ -170,7 +185,7 @@ struct EmptyParts
 class InsideCubes
 {
  public:
-  InsideCubes(const CpuTree& tree, const CubeGrid& grid, const std::vector<bool>& is_entered)
+  InsideCubes(const CpuTree& tree, const CubeGrid& grid, const std::vector<bool>& is_entered, const Stopped& stopped)
     : tree_(tree), grid_(grid), parts_(grid, is_entered)
   {
     const bool solid = hasSolid(tree);
@@ -178,8 +193,10 @@ class InsideCubes
     has_hole_ =
         by_winding_ && std::all_of(parts_.at_border.begin(), parts_.at_border.end(), [](bool at) { return at; });
     std::vector<std::uint32_t> stack;
+    StopTest end_if_stopped(stopped);
     for (const Vector3i& cube : parts_.first)
     {
+      end_if_stopped();
       const Vector3d center = grid.centerOf(cube);
       // The triangles separate the parts. So the triangles of a primitive decide, and not its true surface.
       inside_.push_back(solid && tree.mesh
@@ -253,8 +270,9 @@ double distanceFromSurface(const CpuTree& tree, const Vector3d& point)
   return best;
 }
 
-ShapeSamples samplesOf(const CpuTree& tree)
+ShapeSamples samplesOf(const CpuTree& tree, const Stopped& stopped)
 {
+  StopTest end_if_stopped(stopped);
   AlignedBox3d box;
   for (const Triangle& triangle : tree.triangles)
     for (const Vector3d& vertex : triangle)
@@ -262,9 +280,9 @@ ShapeSamples samplesOf(const CpuTree& tree)
   const CubeGrid grid = gridAround(box);
   ShapeSamples samples;
   samples.grid = grid;
-  samples.pieces = piecesOf(tree.triangles, grid.cell);
+  samples.pieces = piecesOf(tree.triangles, grid.cell, stopped);
 
-  const std::vector<bool> is_entered = entered(grid, samples.pieces);
+  const std::vector<bool> is_entered = entered(grid, samples.pieces, stopped);
   std::vector<bool> has_point(is_entered.size(), false);
   for (const Triangle& piece : samples.pieces)
     for (const Vector3d& vertex : piece)
@@ -282,10 +300,11 @@ ShapeSamples samplesOf(const CpuTree& tree)
     samples.inside.push_back({center, distanceFromSurface(tree, center)});
   };
   const Vector3i last = grid.count - Vector3i::Ones();
-  const InsideCubes inside(tree, grid, is_entered);
+  const InsideCubes inside(tree, grid, is_entered, stopped);
   grid.each(Vector3i::Zero(), last,
             [&](const Vector3i& cube)
             {
+              end_if_stopped();
               if (is_entered[grid.numberOf(cube)] || !(solid || cube.sum() % 4 == 0) || !inside.contains(cube))
                 return;
               add(cube);
@@ -297,6 +316,7 @@ ShapeSamples samplesOf(const CpuTree& tree)
     grid.each(Vector3i::Zero(), last,
               [&](const Vector3i& cube)
               {
+                end_if_stopped();
                 if (is_entered[grid.numberOf(cube)] && cube.sum() % 4 == 0 && insideSolid(tree, grid.centerOf(cube)))
                   add(cube);
               });

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/exact/cpu_tree.h"
+#include "collision/filter/proofs/stopped.h"
 
 namespace gpu_planning_scene::core
 {
@@ -63,8 +64,8 @@ struct ShapeSamples
 };
 
 /// Cuts a shape into parts. All points of its solid that are in none of the cells are within sqrt(3) * grid.cell of
-/// the surface.
-ShapeSamples samplesOf(const CpuTree& tree);
+/// the surface. Throws ProofsStopped.
+ShapeSamples samplesOf(const CpuTree& tree, const Stopped& stopped = {});
 
 /// Whether the shape has a solid: it is a primitive, or a mesh with a closed component.
 bool hasSolid(const CpuTree& tree);

@@ -21,7 +21,7 @@ BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definit
   : arguments_(folder),
     scan_(folder, "traversal/level_scan.comp"),
     expand_(folder, "traversal/level_expand.comp", definitions),
-    overlap_(folder, "traversal/level_overlap.comp", definitions, TaskPrograms::Needs::NoPadding),
+    overlap_(folder, "traversal/level_overlap.comp", definitions, TaskPrograms::Needs::All),
     triangles_(folder, "traversal/level_triangles.comp", definitions, TaskPrograms::Needs::NoTolerance)
 {
 }
@@ -48,7 +48,7 @@ void BreadthFirst::start(BatchLists& lists, const TraversalTask& task)
   const Program& overlap = overlap_.forTask(task);
   const Program& triangles = triangles_.forTask(task);
   const std::array<const Program*, 3> level_programs = {&overlap, &scan_, &expand_};
-  if (task.tolerance > 0.0F)
+  if (task.endsEarly())
     overlap.setFloat(LOCATION_TOLERANCE, task.tolerance);
   const std::uint32_t capacity = lists.capacity.node_pairs;
   std::uint32_t in_counter = task.solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;

@@ -67,7 +67,7 @@ const Program& TaskPrograms::forTask(const TraversalTask& task)
 {
   const bool tolerant = task.tolerance > 0.0F && needs_ != Needs::NoTolerance;
   // The programs for solids always handle required distances.
-  const bool padded = task.padded && !task.solids && needs_ != Needs::NoPadding;
+  const bool padded = task.padded && !task.solids;
   auto& program = programs_[(task.solids ? 4 : 0) + (padded ? 2 : 0) + (tolerant ? 1 : 0)];
   if (!program)
   {

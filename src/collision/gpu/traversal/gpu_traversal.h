@@ -52,6 +52,9 @@ struct TraversalTask
   bool padded = false;       ///< some pairs have a required distance
   float tolerance = 0.0F;    ///< metres
   std::uint32_t levels = 1;  ///< upper bound of the levels of a tree
+
+  /// Whether two nodes may prove a collision, see shaders/traversal/tolerance.glsl.
+  bool endsEarly() const { return tolerance > 0.0F || (padded && !solids); }
 };
 
 /// The programs of one shader, one for each kind of task. A program is compiled when it is first needed. The reason for
@@ -63,7 +66,6 @@ class TaskPrograms
   enum class Needs
   {
     All,
-    NoPadding,
     NoTolerance
   };
   TaskPrograms(std::string shader_folder, std::string name, std::string definitions, Needs needs);

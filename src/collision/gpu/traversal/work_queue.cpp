@@ -21,7 +21,7 @@ void WorkQueue::start(BatchLists& lists, const TraversalTask& task)
   const Program& program = programs_.forTask(task);
   const std::uint32_t capacity = lists.capacity.node_pairs;
   program.set(LOCATION_ENTRY_CAPACITY, capacity);
-  if (task.tolerance > 0.0F)
+  if (task.endsEarly())
     program.setFloat(LOCATION_TOLERANCE, task.tolerance);
   std::uint32_t in_counter = task.solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;
   std::uint32_t in_capacity = lists.capacity.root_pairs;
