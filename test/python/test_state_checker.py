@@ -59,7 +59,12 @@ class StateChecker(Case):
         scene = kr5_scene()
         states = scene.robot.random_states(3000, seed=7, base=scene.robot.default_state())
         expected = answers_of_the_tool(3000, 7, "cpu")
-        for device in ("cpu", "software"):
+        devices = ["cpu"]
+        if any(device.software for device in gps.list_devices()):
+            devices.append("software")
+        else:
+            print("without the device 'software': this machine has no software renderer", file=sys.stderr)
+        for device in devices:
             result = gps.StateChecker(scene, device=device).check(states)
             self.assertEqual([row[0] == "1" for row in expected], result.valid.tolist())
             self.assertTrue(500 < result.valid.sum() < 2500)

@@ -20,6 +20,7 @@
 #include "support/repetitions.h"
 #include "support/seed.h"
 #include "support/shader_folder.h"
+#include "support/software_device.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core
@@ -340,7 +341,9 @@ TEST(ProofsOnTheDevice, AreForgottenWithTheirScene)
   expectExact(checker, other, balls, "", kSeed + 6);
 }
 
-TEST(SeveralDevices, AnswerLikeOne)
+using SeveralDevices = OnSoftwareDevice;
+
+TEST_F(SeveralDevices, AnswerLikeOne)
 {
   const TestScene& test = testScene("arm_boxes");
   constexpr std::size_t kCount = 40'000;
