@@ -76,9 +76,11 @@ TEST_F(StagingRingTest, GrowsWithTheUploadsAndSplitsTheLargest)
   Buffer middle(larger);
   middle.write(numbersFrom(2, larger));  // the copy from the old memory has perhaps not been executed
   EXPECT_EQ(ring_.pieceBytes(), 2 * kPiece);
-  const std::size_t largest = StagingRing::kPieces * StagingRing::kLargestPieceBytes + kPiece + 4;
+  const std::size_t largest = (StagingRing::kPieces - 1) * StagingRing::kLargestPieceBytes + kPiece + 4;
+  ASSERT_LE(largest, Buffer::maxBytes());
   Buffer large(largest);
-  large.write(numbersFrom(3, largest));
+  for (const std::uint32_t first : {4U, 3U})  // twice, so that all pieces are used again
+    large.write(numbersFrom(first, largest));
   EXPECT_EQ(ring_.pieceBytes(), StagingRing::kLargestPieceBytes);
   EXPECT_EQ(contentsOf(small, 64), numbersFrom(1, 64));
   EXPECT_EQ(contentsOf(middle, larger), numbersFrom(2, larger));
