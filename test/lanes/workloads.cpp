@@ -9,6 +9,7 @@
 #include "collision/exact/binned_sah.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/gpu/gpu_checker.h"
+#include "collision/gpu/tree_build/gpu_trees.h"
 #include "gpu/float_arithmetic.h"
 #include "gpu/program.h"
 #include "gpu/readback.h"
@@ -144,6 +145,16 @@ std::vector<std::string> checkStates(Traversal traversal, const std::string& sha
   return wrong;
 }
 
+/// Builds the trees of a scene, then those of a changed scene. GpuTrees checks them.
+std::vector<std::string> buildTrees(const std::string& shaders)
+{
+  GpuTrees trees(shaders);
+  const Tessellation few{hills(4), 0.0};
+  trees.setShapes({few, tessellate(Box{{0.05, 0.07, 0.03}})});
+  trees.setShapes({few, Tessellation{hills(9), 0.0}, tessellate(Box{{0.1, 0.1, 0.1}}), Tessellation{hills(2), 0.0}});
+  return {};
+}
+
 std::vector<std::string> testArithmetic(const std::string& shaders)
 {
   std::vector<std::string> wrong;
@@ -266,6 +277,7 @@ const std::map<std::string, Task>& tasks()
        { return checkStates(Traversal::BreadthFirst, shaders, seed); }},
       {"work_queue",
        [](const std::string& shaders, std::uint64_t seed) { return checkStates(Traversal::WorkQueue, shaders, seed); }},
+      {"trees", [](const std::string& shaders, std::uint64_t) { return buildTrees(shaders); }},
       {"transfers", [](const std::string&, std::uint64_t seed) { return mixTransfers(seed); }},
       {"transforms", checkTransforms},
       {"triangles", checkTriangles},

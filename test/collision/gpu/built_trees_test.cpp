@@ -54,7 +54,7 @@ TEST_F(BuiltTreesTest, OfABrokenShaderAreRefused)
       {"tree_build/scan.comp", "rounds[next + ROUND_CLUSTERS] = remaining;",
        "rounds[next + ROUND_CLUSTERS] = remaining + (round_index == BUILD_ROUNDS - 1u ? 1u : 0u);"},
       {"tree_build/layout.glsl", "primitive_base + c.reference;", "primitive_base + (c.reference ^ 1u);"},
-      {"tree_build/layout.glsl", "leaf_order[start] = primitive_base", "leaf_order[start] = 0u * primitive_base"},
+      {"tree_build/layout.glsl", "leaf_order[start] = primitive_base + c.reference;", "leaf_order[start] = 0u;"},
       {"tree_build/layout.glsl", "(1.0 + 4.0 * UNIT_ROUNDOFF) + 1e-37", "0.9"},
       {"tree_build/layout.glsl", "leaf ? start : first_pair_node", "leaf ? start + 1u : first_pair_node"},
       {"tree_build/layout.glsl", "leaf ? c.count : 0u", "leaf ? c.count + 1u : 0u"},
@@ -101,8 +101,13 @@ TEST_F(BuiltTreesTest, WithOneWrongWordAreRefused)
 
   SCOPED_TRACE("seed " + std::to_string(kSeed));
   const auto below = [&](std::size_t end) { return generator_() % end; };
-  const auto node = [&](BuiltTrees& wrong) -> Node& { return wrong.nodes[below(wrong.nodes.size())]; };
-  const auto box = [&](BuiltTrees& wrong) -> OrientedNode& { return wrong.oriented[below(wrong.oriented.size())]; };
+  // The nodes below a leaf of several triangles are in no tree.
+  std::vector<std::uint32_t> used = {0, 1, 2};
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (const Node& inner = right.nodes[used[i]]; inner.count == 0)
+      used.insert(used.end(), {inner.first, inner.first + 1});
+  const auto node = [&](BuiltTrees& wrong) -> Node& { return wrong.nodes[used[below(used.size())]]; };
+  const auto box = [&](BuiltTrees& wrong) -> OrientedNode& { return wrong.oriented[used[below(used.size())]]; };
   const std::vector<std::function<void(BuiltTrees&)>> changes = {
       [&](BuiltTrees& wrong) { ++node(wrong).first; },
       [&](BuiltTrees& wrong) { ++node(wrong).count; },
