@@ -29,7 +29,7 @@ using namespace gpu_planning_scene::core::benchmark;
 namespace
 {
 const std::vector<std::string> kParts = {"build",   "latency", "throughput", "stages",
-                                         "updates", "growth",  "meshes",     "distances"};
+                                         "updates", "growth",  "meshes",     "distances", "kernels"};
 const std::vector<std::string> kQuickScenes = {"kr5_boxes", "ur5_cage", "arm_boxes", "arm_shelf"};
 constexpr std::size_t kQuickSceneCount = 2;
 
@@ -153,6 +153,8 @@ void run(const CommandLine& arguments)
             wrong += measureThroughput(settings);
           else if (part == "stages")
             wrong += measureStages(settings);
+          else if (part == "kernels")
+            wrong += measureKernels(settings);
           else if (part == "latency")
             wrong += measureLatency(settings);
           else if (part == "build")
@@ -184,6 +186,7 @@ int main(int argc, char** argv)
        "bench/literature, and writes them as CSV tables.\n"
        "Work is counted outside the timing, and only if counting costs nothing: on the CPU the visited nodes per\n"
        "state, on the GPU the candidates, root pairs and traversed pairs per state. The peers have no counts.\n"
+       "The part kernels times each kernel, copy and clear of ours_work_queue and ours_breadth_first on the device.\n"
        "scripts/charts draws the tables. Exit status 1 if a method that claims to be exact gives a wrong answer.\n"
        "Without the robots of Debian's dart-doc (see --data), their scenes are left out.",
        {{"--quick", "", "two scenes, few states, no methods of bench/literature: under a minute"},

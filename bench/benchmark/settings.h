@@ -32,6 +32,8 @@ struct Settings
 std::size_t measureThroughput(const Settings& settings);
 /// stages.csv; finds no wrong answers
 std::size_t measureStages(const Settings& settings);
+/// kernels.csv; finds no wrong answers
+std::size_t measureKernels(const Settings& settings);
 /// latency.csv
 std::size_t measureLatency(const Settings& settings);
 /// build.csv

@@ -18,8 +18,8 @@
 
 #include "benchmark/csv_table.h"
 #include "benchmark/statistics.h"
+#include "collision/checkers/open_checker.h"
 #include "command_line/command_line.h"
-#include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
@@ -136,7 +136,8 @@ class Study
     {
       BatchCheckerOptions options;
       options.device = settings_.device;
-      ours_ = std::make_shared<BatchChecker>(problem.scene, options);
+      ours_ = openWithFallback(problem.scene, options,
+                               [](const std::string& warning) { std::cerr << "warning: " << warning << std::endl; });
       exact_ = std::make_shared<CpuChecker>(problem.scene);
       std::cout << "device: " << ours_->deviceName() << std::endl;
     }
@@ -241,7 +242,7 @@ class Study
 
   Settings settings_;
   CsvTable table_;
-  std::shared_ptr<BatchChecker> ours_;
+  std::shared_ptr<StateChecker> ours_;
   std::shared_ptr<CpuChecker> exact_;
   std::map<std::pair<std::string, std::string>, std::vector<Outcome>> outcomes_;
   bool wrong_ = false;

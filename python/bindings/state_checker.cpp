@@ -51,17 +51,22 @@ BatchCheckerOptions optionsFrom(const Arg<std::string>& device, Arg<double> tole
   return options;
 }
 
+/// A warning of Python, from code that runs without the interpreter's lock. If a filter makes an error of it, Python
+/// prints this error: an exception here would leave a changed scene behind.
+void warnWithLock(const std::string& line)
+{
+  const py::gil_scoped_acquire acquired;
+  if (PyErr_WarnEx(PyExc_UserWarning, line.c_str(), 1) != 0)
+    PyErr_WriteUnraisable(nullptr);
+}
+
 CheckerPtr openedOnDevice(const Arg<ScenePtr>& scene, const Arg<std::string>& device, Arg<double> tolerance,
                           Arg<std::size_t> max_batch, const py::object& cpu_below, const Arg<std::string>& traversal)
 {
   const BatchCheckerOptions options = optionsFrom(device, tolerance, max_batch, cpu_below, traversal);
-  const CheckerPtr checker =
-      opened(*scene.value,
-             [&](const std::shared_ptr<const PlanningScene>& copy) -> std::shared_ptr<StateChecker>
-             { return core::openCheckerOrCpu(copy, options); });
-  if (const std::string warning = checker->deviceWarning(); !warning.empty())
-    warnOf({warning});
-  return checker;
+  return opened(*scene.value,
+                [&](const std::shared_ptr<const PlanningScene>& copy) -> std::shared_ptr<StateChecker>
+                { return core::openWithFallback(copy, options, warnWithLock); });
 }
 
 BatchResult checkStates(SharedChecker& checker, const py::object& states, const Arg<std::string>& group)
@@ -225,14 +230,15 @@ void addStateChecker(py::module_& module)
       "\"cpu\" is the library's CpuChecker, which needs no OpenGL. All other values are its BatchChecker: \"auto\" "
       "takes "
       "the first hardware device, or software if there is none; \"software\"; an index of list_devices() as a str; a "
-      "part of a renderer's name; several devices as \"0+1\"; all GPUs as \"all\". If the device of \"auto\" or "
-      "\"all\" cannot hold the scene, the CPU checks it, "
-      "with a UserWarning. All devices give the same `valid`. "
+      "part of a renderer's name; several devices as \"0+1\"; all GPUs as \"all\". All devices give the same `valid`. "
+      "If a device of \"auto\" or \"all\" fails, also later or while it takes a new scene, it is opened again; if that "
+      "fails too, a UserWarning gives the reason, and the CPU answers. "
       "tolerance: metres; 0: exact; above 0, bodies within this distance may be reported as colliding. max_batch: the "
       "most states that go to the GPU at once. cpu_below: the CPU checks batches of fewer states; None: the "
       "checker measures at which size the GPU becomes faster. traversal: \"work_queue\" or \"breadth_first\".\n\n"
       "Thread-safe: calls are served one after the other, and other threads of Python run meanwhile. Raises Error if "
-      "the device cannot be used, or if the scene or an option is not valid.\n\n"
+      "there is no device, if a device that `device` names cannot be used, or if the scene or an option is not valid. "
+      "Raises DeviceLost if such a device fails later.\n\n"
       "    checker = gps.StateChecker(scene, device=\"cpu\")\n"
       "    result = checker.check(robot.random_states(1000, seed=1))\n"
       "    print(result.valid.mean())");

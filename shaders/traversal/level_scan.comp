@@ -29,9 +29,11 @@ void main()
     const uvec2 kept = min(total, uvec2(entry_capacity, leaf_pair_capacity));
     counters[out_counter] = kept.x;
     counters[COUNTER_LEAF_PAIRS] = kept.y;
-    // level_expand.comp runs with the arguments of this level.
-    for (uint i = 0u; i < 3u; ++i)
-      counters[COUNTER_CHUNK_ARGUMENTS + i] = counters[COUNTER_ARGUMENTS + i];
+    // level_expand.comp runs with the arguments of this level. NVIDIA's compiler refuses a loop over them: it unrolls
+    // the loop and then reports "lvalue in array access too complex".
+    counters[COUNTER_CHUNK_ARGUMENTS] = counters[COUNTER_ARGUMENTS];
+    counters[COUNTER_CHUNK_ARGUMENTS + 1u] = counters[COUNTER_ARGUMENTS + 1u];
+    counters[COUNTER_CHUNK_ARGUMENTS + 2u] = counters[COUNTER_ARGUMENTS + 2u];
     setGroups(COUNTER_ARGUMENTS, (kept.x + LEVEL_GROUP - 1u) / LEVEL_GROUP);
     setGroups(COUNTER_LEAF_ARGUMENTS, (kept.y + GROUP_SIZE - 1u) / GROUP_SIZE);
   }

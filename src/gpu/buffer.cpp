@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 #include "gpu/gl_check.h"
+#include "gpu/staging_ring.h"
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core
@@ -40,7 +41,7 @@ Buffer::Buffer(std::size_t size) : size_(std::max<std::size_t>(size, 16))
 {
   requireWithin(size, maxBytes());
   glCreateBuffers(1, &id_);
-  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(size_), nullptr, GL_DYNAMIC_STORAGE_BIT);
+  glNamedBufferStorage(id_, static_cast<GLsizeiptr>(size_), nullptr, 0);
   checkGl(("allocating " + std::to_string(size_) + " bytes").c_str());
 }
 
@@ -79,7 +80,7 @@ void Buffer::write(const void* data, std::size_t size, std::size_t offset)
   if (size == 0)
     return;
   waitForShaders();
-  glNamedBufferSubData(id_, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(size), data);
+  StagingRing::ofThisThread().upload(id_, offset, data, size);
   checkGl("an upload");
 }
 

@@ -7,8 +7,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// A block of GPU memory. Move-only; used on the context's thread. All sizes are in bytes. Throws Error if OpenGL fails
-/// (out of memory, out of range), and for more than maxBytes().
+/// A block of GPU memory, which only commands of the device read and write (see StagingRing). Move-only; used on the
+/// context's thread. All sizes are in bytes. Throws Error if OpenGL fails (out of memory, out of range), and for more
+/// than maxBytes().
 class Buffer
 {
  public:

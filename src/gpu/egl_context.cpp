@@ -11,6 +11,7 @@
 
 #include "gpu/driver_fault.h"
 #include "gpu/gl_debug.h"
+#include "gpu/staging_ring.h"
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core
@@ -207,6 +208,7 @@ EglContext::EglContext(const std::string& selector)
 
 EglContext::~EglContext()
 {
+  StagingRing::ofThisThread().release();
   destroy(display_, context_);
 }
 

@@ -104,6 +104,17 @@ GLuint compile(const std::string& source, const std::string& name)
   return program;
 }
 
+/// "NAME DEFINITION VALUE ...", as short as OpenGL demands.
+std::string labelOf(std::string name, const std::string& definitions)
+{
+  constexpr std::size_t kLongest = 255;  // the least GL_MAX_LABEL_LENGTH, less the final zero
+  std::istringstream lines(definitions);
+  for (std::string word; lines >> word;)
+    if (word != "#define")
+      name += " " + word;
+  return name.substr(0, kLongest);
+}
+
 /// The folder relative to the file of this library, so that an installation can be moved.
 std::string installedShaderFolder()
 {
@@ -142,7 +153,7 @@ std::size_t groupsFor(std::size_t invocations)
 }
 
 Program::Program(const std::string& folder, const std::string& name, const std::string& definitions)
-  : Program(Source{name, "#version 450\n" + definitions + readShader(folder, name)})
+  : Program(Source{name, "#version 450\n" + definitions + readShader(folder, name), labelOf(name, definitions)})
 {
 }
 
@@ -150,7 +161,7 @@ Program Program::fromText(const std::string& folder, const std::string& name, co
 {
   std::istringstream lines(text);
   std::set<std::string> seen;
-  Source source{name, "#version 450\n"};
+  Source source{name, "#version 450\n", labelOf(name, "")};
   appendText(folder, lines, seen, source.text);
   return Program(source);
 }
@@ -164,6 +175,7 @@ Program::Program(const Source& source)
     id_ = compile(source.text, source.name);
     cacheProgram(id_, source.text);
   }
+  glObjectLabel(GL_PROGRAM, id_, static_cast<GLsizei>(source.label.size()), source.label.c_str());
   checkGl(("compiling " + source.name).c_str());
 }
 

@@ -19,7 +19,8 @@ std::string readShader(const std::string& folder, const std::string& name);
 /// The number of work groups of GROUP_SIZE that hold at least `invocations` invocations.
 std::size_t groupsFor(std::size_t invocations);
 
-/// A compute program. Move-only; used on the context's thread.
+/// A compute program. Move-only; used on the context's thread. Its label in OpenGL, for tools that show or time its
+/// dispatches, is the name of its shader with the names and values of its definitions.
 class Program
 {
  public:
@@ -50,7 +51,8 @@ class Program
   struct Source
   {
     std::string name;
-    std::string text;  // complete
+    std::string text;   // complete
+    std::string label;  // of the program in OpenGL
   };
   explicit Program(const Source& source);
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "gpu/buffer.h"
+#include "gpu/fence.h"
 
 namespace gpu_planning_scene::core
 {
@@ -27,11 +28,10 @@ class Readback
 
  private:
   void reserve(std::size_t size);
-  void dropFence();
 
   std::uint32_t id_ = 0;
   std::size_t size_ = 0;
   const std::uint32_t* words_ = nullptr;
-  void* fence_ = nullptr;  // GLsync
+  Fence copied_;
 };
 }  // namespace gpu_planning_scene::core

@@ -168,7 +168,7 @@ void run(const CommandLine& arguments)
   }
 
   const BatchCheckerOptions options = checkerOptionsFrom(arguments);
-  const auto checker = openCheckerOrCpu(scene, options);
+  const auto checker = openWithFallback(scene, options, [](const std::string& warning) { printWarnings({warning}); });
   const std::string at_start = checker->deviceWarning();
   if (!at_start.empty())
     std::cerr << "warning: " << at_start << "\n";

@@ -187,6 +187,7 @@ TEST(Benchmark, WritesEveryTableAndTheChartsAreDrawn)
       {"throughput", {"scene", "kind", "padding_m", "method", "batch", "states_per_s", "cpu_us_a_state"}},
       {"accuracy", {"scene", "kind", "method", "batch", "wrong_per_million", "largest_error_m"}},
       {"stages", {"scene", "stage", "decided_share", "ns_a_state"}},
+      {"kernels", {"scene", "method", "batch", "command", "calls_a_batch", "us_a_batch", "mean_us", "longest_us"}},
       {"latency", {"scene", "method", "batch", "p50_us", "p99_us", "of_fcl_obbrss"}},
       {"build", {"scene", "method", "load_robot_s", "build_s", "update_s", "peak_host_mib", "device_mib"}},
       {"updates", {"robot", "objects", "method", "updates", "p50_ms", "p99_ms"}},
@@ -200,6 +201,13 @@ TEST(Benchmark, WritesEveryTableAndTheChartsAreDrawn)
     for (const std::string& column : columns)
       EXPECT_EQ(table.front().count(column), 1U) << name << ": " << column;
   }
+
+  std::map<std::string, double> calls;
+  for (const Row& row : readTable(folder.path() + "/kernels.csv"))
+    calls[row.at("command")] += std::stod(row.at("calls_a_batch"));
+  EXPECT_GE(calls["traversal/work_queue.comp"], 4.0) << "passes of a part";
+  for (const char* once_a_part : {"broad_phase/root_pairs.comp", "common/batch_done.comp", "upload", "readback"})
+    EXPECT_GE(calls[once_a_part], 1.0) << once_a_part;
 
   const ProgramOutput charts = runProgram("/usr/bin/python3", {"-B", GPS_CHARTS, folder.path()});
   if (charts.err.find("No module named 'matplotlib'") != std::string::npos)

@@ -1,11 +1,11 @@
 #include "lanes/gl_device.h"
 
-#include <algorithm>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <mutex>
-#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <epoxy/gl.h>
@@ -16,27 +16,47 @@ namespace lanes
 {
 namespace
 {
+/// A buffer as OpenGL knows it.
+struct BufferName
+{
+  std::uint32_t block;
+  GLbitfield flags;       // of glNamedBufferStorage
+  GLbitfield mapped_for;  // GL_MAP_READ_BIT, GL_MAP_WRITE_BIT; 0: not mapped
+};
+
 std::map<GLuint, Simulator::Program> programs;
-std::map<GLuint, std::map<GLint, std::uint32_t>> uniforms;  // by program and location; programs may share a kernel
+using Uniforms = std::map<GLint, std::uint32_t>;  // by location
+std::map<GLuint, Uniforms> uniforms;              // by program; programs may share a kernel
 std::map<GLuint, std::string> shader_texts;
 std::map<GLuint, GLuint> texture_blocks;  // by texture
 std::vector<std::string> compiled;
 GLuint last_id = 0;
 GLuint current_program = 0;
 GLuint indirect_block = 0;
-std::map<GLuint, GLuint> blocks;  // by buffer
-std::set<GLuint> mapped;          // buffers
-std::uint32_t pending_bits = 0;   // of memory barriers since the last command
+std::map<GLuint, BufferName> buffers;
+std::uint32_t pending_bits = 0;  // of memory barriers since the last command
 std::uint32_t ignored_bits = 0;
 std::string ignored_before;  // the kind of command, empty: every command
 bool recording = false;
 std::recursive_mutex lock;
 
+/// The device, whose commands may not have been executed yet.
+Simulator& simulator()
+{
+  static Simulator device;
+  return device;
+}
+
+CommandQueue& commands()
+{
+  return simulator().commands();
+}
+
 /// The counts of the host's work, if there are any, else some that nobody reads.
 HostWork& hostWork()
 {
   static HostWork unread;
-  return device().counts() ? device().counts()->host : unread;
+  return simulator().counts() ? simulator().counts()->host : unread;
 }
 
 void countUpload(GLsizeiptr bytes)
@@ -51,12 +71,22 @@ void countDownload(GLsizeiptr bytes)
   hostWork().downloaded_bytes += static_cast<std::uint64_t>(bytes);
 }
 
-/// Lets the memory barriers since the last command take effect. `command`: the kind of the command that follows.
-void applyBarriers(const char* command)
+/// The bits of the memory barriers since the last command. `command`: the kind of the command that follows.
+std::uint32_t barrierBits(const char* command)
 {
   const bool ignored = ignored_before.empty() || ignored_before == command;
-  device().memoryBarrier(pending_bits & ~(ignored ? ignored_bits : 0U));
-  pending_bits = 0;
+  return std::exchange(pending_bits, 0U) & ~(ignored ? ignored_bits : 0U);
+}
+
+/// Gives the device a command. `kind`: for ignoreBarrierBits.
+void give(const char* kind, std::function<void()> command)
+{
+  commands().add(
+      [bits = barrierBits(kind), command = std::move(command)]
+      {
+        simulator().memoryBarrier(bits);
+        command();
+      });
 }
 
 GLenum noError()
@@ -70,87 +100,124 @@ void createNames(GLsizei count, GLuint* names)
     names[i] = ++last_id;
 }
 
-void bufferStorage(GLuint buffer, GLsizeiptr size, const void*, GLbitfield)
+void bufferStorage(GLuint buffer, GLsizeiptr size, const void* data, GLbitfield flags)
 {
-  blocks[buffer] = device().addBlock(static_cast<std::size_t>(size));
+  if (data)
+    simulator().report("a buffer is made with data, which this device does not know");
+  buffers[buffer] = {simulator().addBlock(static_cast<std::size_t>(size)), flags, 0};
 }
 
-void deleteBuffers(GLsizei count, const GLuint* buffers)
+void deleteBuffers(GLsizei count, const GLuint* names)
 {
   for (GLsizei i = 0; i < count; ++i)
   {
-    device().removeBlock(blocks.at(buffers[i]));
-    blocks.erase(buffers[i]);
-    mapped.erase(buffers[i]);
+    commands().add([block = buffers.at(names[i]).block] { simulator().removeBlock(block); });
+    buffers.erase(names[i]);
   }
 }
 
-void writeBuffer(GLuint buffer, GLintptr offset, GLsizeiptr size, const void* data)
-{
-  device().commandWrite(blocks.at(buffer), static_cast<std::size_t>(offset), static_cast<std::size_t>(size), data);
-}
-
-void readBuffer(GLuint buffer, GLintptr offset, GLsizeiptr size, void* data)
-{
-  device().commandRead(blocks.at(buffer), static_cast<std::size_t>(offset), static_cast<std::size_t>(size), data,
-                       BufferUpdate);
-}
-
+/// An upload to a buffer that the host may write. As with NVIDIA's driver, it happens at once, so it may overtake
+/// commands that were given before.
 void bufferSubData(GLuint buffer, GLintptr offset, GLsizeiptr size, const void* data)
 {
   countUpload(size);
-  applyBarriers("upload");
-  writeBuffer(buffer, offset, size, data);
+  const BufferName& to = buffers.at(buffer);
+  if ((to.flags & GL_DYNAMIC_STORAGE_BIT) == 0)
+    return simulator().report("an upload to a buffer without GL_DYNAMIC_STORAGE_BIT");
+  simulator().memoryBarrier(barrierBits("upload"));
+  simulator().commandWrite(to.block, static_cast<std::size_t>(offset), static_cast<std::size_t>(size), data);
 }
 
 void getBufferSubData(GLuint buffer, GLintptr offset, GLsizeiptr size, void* data)
 {
   countDownload(size);
   ++hostWork().waits;
-  applyBarriers("download");
-  readBuffer(buffer, offset, size, data);
+  give("download",
+       [=, block = buffers.at(buffer).block]
+       {
+         simulator().commandRead(block, static_cast<std::size_t>(offset), static_cast<std::size_t>(size), data,
+                                 BufferUpdate);
+       });
+  commands().finish();
 }
 
 void clearBufferSubData(GLuint buffer, GLenum, GLintptr offset, GLsizeiptr size, GLenum, GLenum, const void*)
 {
-  applyBarriers("clear");
-  const std::vector<char> zeros(static_cast<std::size_t>(size));
-  writeBuffer(buffer, offset, size, zeros.data());
+  give(
+      "clear",
+      [=, block = buffers.at(buffer).block]
+      {
+        const std::vector<char> zeros(static_cast<std::size_t>(size));
+        simulator().commandWrite(block, static_cast<std::size_t>(offset), zeros.size(), zeros.data());
+      });
+}
+
+/// The bytes of a buffer at this moment.
+std::vector<char> bytesOf(std::uint32_t block, GLintptr offset, GLsizeiptr size)
+{
+  const Block& from = simulator().block(block);
+  const char* const first = reinterpret_cast<const char*>(from.values.get()) + offset;
+  return offset + size > static_cast<GLintptr>(from.bytes) ? std::vector<char>()
+                                                           : std::vector<char>(first, first + size);
 }
 
 void copyBufferSubData(GLuint from, GLuint to, GLintptr from_offset, GLintptr to_offset, GLsizeiptr size)
 {
-  const bool is_readback = mapped.count(to) > 0;
+  const BufferName& source = buffers.at(from);
+  const BufferName& target = buffers.at(to);
+  const bool is_upload = (source.mapped_for & GL_MAP_WRITE_BIT) != 0;
+  const bool is_readback = (target.mapped_for & GL_MAP_READ_BIT) != 0;
+  if (is_upload)
+    countUpload(size);
   if (is_readback)
     countDownload(size);
-  applyBarriers(is_readback ? "readback" : "copy");
-  std::vector<char> bytes(static_cast<std::size_t>(size));
-  readBuffer(from, from_offset, size, bytes.data());
-  writeBuffer(to, to_offset, size, bytes.data());
+  std::vector<char> given;  // what the host has written for this copy
+  if (is_upload)
+    given = bytesOf(source.block, from_offset, size);
+  give(is_upload     ? "upload"
+       : is_readback ? "readback"
+                     : "copy",
+       [=, from_block = source.block, to_block = target.block, given = std::move(given)]
+       {
+         std::vector<char> bytes(static_cast<std::size_t>(size));
+         simulator().commandRead(from_block, static_cast<std::size_t>(from_offset), bytes.size(), bytes.data(),
+                                 BufferUpdate);
+         if (is_upload && bytes != given)
+           simulator().report("the host has overwritten mapped memory that a copy had not read yet");
+         simulator().commandWrite(to_block, static_cast<std::size_t>(to_offset), bytes.size(), bytes.data());
+       });
 }
 
 void bindBufferBase(GLenum, GLuint binding, GLuint buffer)
 {
   if (buffer == 0)
-    return device().unbindStorage(binding);
-  const GLuint block = blocks.at(buffer);
-  device().bindStorage(binding, block, 0, device().block(block).bytes);
+    return commands().add([=] { simulator().unbindStorage(binding); });
+  const std::uint32_t block = buffers.at(buffer).block;
+  commands().add([=] { simulator().bindStorage(binding, block, 0, simulator().block(block).bytes); });
 }
 
 void bindBufferRange(GLenum, GLuint binding, GLuint buffer, GLintptr offset, GLsizeiptr size)
 {
-  device().bindStorage(binding, blocks.at(buffer), static_cast<std::size_t>(offset), static_cast<std::size_t>(size));
+  commands().add(
+      [=, block = buffers.at(buffer).block]
+      { simulator().bindStorage(binding, block, static_cast<std::size_t>(offset), static_cast<std::size_t>(size)); });
 }
 
 void bindBuffer(GLenum, GLuint buffer)
 {
-  indirect_block = blocks.at(buffer);
+  indirect_block = buffers.at(buffer).block;
 }
 
-void* mapBufferRange(GLuint buffer, GLintptr offset, GLsizeiptr, GLbitfield)
+void* mapBufferRange(GLuint buffer, GLintptr offset, GLsizeiptr, GLbitfield access)
 {
-  mapped.insert(buffer);
-  return reinterpret_cast<char*>(device().block(blocks.at(buffer)).values.get()) + offset;
+  BufferName& mapped = buffers.at(buffer);
+  constexpr GLbitfield kAccess = GL_MAP_READ_BIT | GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  if ((access & kAccess & ~mapped.flags) != 0)
+    simulator().report("a buffer is mapped in a way that its storage does not allow");
+  if ((access & GL_MAP_PERSISTENT_BIT) == 0 || (access & GL_MAP_COHERENT_BIT) == 0)
+    simulator().report("a buffer is mapped, but not persistently and coherently");
+  mapped.mapped_for = access & (GL_MAP_READ_BIT | GL_MAP_WRITE_BIT);
+  return reinterpret_cast<char*>(simulator().block(mapped.block).values.get()) + offset;
 }
 
 void createTextures(GLenum, GLsizei count, GLuint* names)
@@ -162,12 +229,12 @@ void deleteTextures(GLsizei, const GLuint*) {}
 
 void textureBuffer(GLuint texture, GLenum, GLuint buffer)
 {
-  texture_blocks[texture] = buffer == 0 ? 0 : blocks.at(buffer);
+  texture_blocks[texture] = buffer == 0 ? 0 : buffers.at(buffer).block;
 }
 
 void bindTextureUnit(GLuint unit, GLuint texture)
 {
-  device().bindTexture(unit, texture_blocks[texture]);
+  commands().add([=, block = texture_blocks[texture]] { simulator().bindTexture(unit, block); });
 }
 
 void getIntegerv(GLenum name, GLint* value)
@@ -213,20 +280,25 @@ void attachShader(GLuint program, GLuint shader)
 
 void onProgramAndShader(GLuint, GLuint) {}
 void onProgramParameter(GLuint, GLenum, GLint) {}
+void objectLabel(GLenum, GLuint, GLsizei, const GLchar*) {}
 
 void setUniform(GLuint program, GLint location, const void* value)
 {
   std::memcpy(&uniforms[program][location], value, sizeof(std::uint32_t));
 }
 
-/// Gives a kernel the uniforms of a program.
-void writeUniforms(GLuint program)
+/// Runs a program with the values that its uniforms had when the dispatch was given.
+void runProgram(GLuint program, const Uniforms& values, GLuint columns, GLuint rows)
 {
   const Kernel& kernel = *programs.at(program).kernel;
   for (std::uint32_t i = 0; i < kernel.variable_count; ++i)
-    if (kernel.variables[i].kind == Variable::Uniform)
-      std::memcpy(kernel.variables[i].value, &uniforms[program][static_cast<GLint>(kernel.variables[i].place)],
-                  sizeof(std::uint32_t));
+    if (const Variable& variable = kernel.variables[i]; variable.kind == Variable::Uniform)
+    {
+      const auto value = values.find(static_cast<GLint>(variable.place));
+      const std::uint32_t bits = value == values.end() ? 0U : value->second;
+      std::memcpy(variable.value, &bits, sizeof(bits));
+    }
+  simulator().dispatch(programs.at(program), columns, rows);
 }
 
 void uniform1ui(GLuint program, GLint location, GLuint value)
@@ -244,39 +316,44 @@ void useProgram(GLuint program)
   current_program = program;
 }
 
-void runProgram(GLuint columns, GLuint rows)
-{
-  writeUniforms(current_program);
-  device().dispatch(programs.at(current_program), columns, rows);
-}
-
 void dispatchCompute(GLuint columns, GLuint rows, GLuint)
 {
   if (recording)
     return;
-  applyBarriers("dispatch");
-  runProgram(columns, rows);
+  give("dispatch", [=, program = current_program, values = uniforms[current_program]]
+       { runProgram(program, values, columns, rows); });
 }
 
 void dispatchComputeIndirect(GLintptr offset)
 {
   if (recording)
     return;
-  applyBarriers("indirect dispatch");
-  GLuint groups[3] = {};
-  device().commandRead(indirect_block, static_cast<std::size_t>(offset), sizeof(groups), groups, Command);
-  runProgram(groups[0], groups[2] == 0 ? 0 : groups[1]);
+  give("indirect dispatch",
+       [=, program = current_program, values = uniforms[current_program], block = indirect_block]
+       {
+         GLuint groups[3] = {};
+         simulator().commandRead(block, static_cast<std::size_t>(offset), sizeof(groups), groups, Command);
+         runProgram(program, values, groups[0], groups[2] == 0 ? 0 : groups[1]);
+       });
 }
 
+/// A fence is the number of the last command before it.
 GLsync fenceSync(GLenum, GLbitfield)
 {
-  return reinterpret_cast<GLsync>(&last_id);
+  commands().add([] {});  // so that the number is not 0
+  return reinterpret_cast<GLsync>(commands().lastAdded());
 }
 
-GLenum clientWaitSync(GLsync, GLbitfield, GLuint64)
+GLenum clientWaitSync(GLsync fence, GLbitfield, GLuint64)
 {
   ++hostWork().waits;
-  return GL_ALREADY_SIGNALED;
+  const auto last = reinterpret_cast<CommandQueue::Serial>(fence);
+  if (commands().lastExecuted() >= last)
+    return GL_ALREADY_SIGNALED;
+  if (commands().oneIn(4))
+    return GL_TIMEOUT_EXPIRED;
+  commands().finish(last);
+  return GL_CONDITION_SATISFIED;
 }
 
 void deleteSync(GLsync) {}
@@ -330,6 +407,7 @@ void replaceOpenGl()
   epoxy_glAttachShader = Locked<attachShader>::call;
   epoxy_glDetachShader = Locked<onProgramAndShader>::call;
   epoxy_glProgramParameteri = Locked<onProgramParameter>::call;
+  epoxy_glObjectLabel = Locked<objectLabel>::call;
   epoxy_glProgramUniform1ui = Locked<uniform1ui>::call;
   epoxy_glProgramUniform1f = Locked<uniform1f>::call;
   epoxy_glUseProgram = Locked<useProgram>::call;
@@ -343,8 +421,7 @@ void replaceOpenGl()
 
 Simulator& device()
 {
-  static Simulator simulator;
-  return simulator;
+  return simulator();
 }
 
 const std::vector<std::string>& compiledShaders()

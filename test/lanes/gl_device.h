@@ -12,7 +12,8 @@ namespace lanes
 /// entry points of libepoxy are variables, so the code of the project runs unchanged and needs no context.
 void replaceOpenGl();
 
-/// The simulated device behind the replaced functions.
+/// The simulated device behind the replaced functions. It executes commands later than they are given; what the host
+/// does to mapped memory, and uploads to buffers with GL_DYNAMIC_STORAGE_BIT, happens at once.
 Simulator& device();
 
 /// The text of each shader that was compiled.
@@ -22,6 +23,7 @@ const std::vector<std::string>& compiledShaders();
 void recordOnly();
 
 /// Each later memory barrier before a command of this kind lacks these bits. `command`: dispatch, indirect dispatch,
-/// upload, download, clear, copy or readback (a copy to a mapped buffer); empty: all kinds.
+/// upload (also a copy from a mapped buffer), download, clear, copy or readback (a copy to a mapped buffer); empty: all
+/// kinds.
 void ignoreBarrierBits(std::uint32_t bits, const std::string& command);
 }  // namespace lanes

@@ -8,9 +8,11 @@
 #include <string>
 #include <vector>
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include "gpu/buffer.h"
+#include "gpu/fence.h"
 #include "gpu/program.h"
 #include "lanes/gl_device.h"
 #include "lanes/workloads.h"
@@ -64,6 +66,112 @@ TEST_F(SimulatedDevice, FindsAMissingMemoryBarrierBeforeADownload)
   constexpr std::uint32_t kBufferUpdate = 0x200;
   lanes::ignoreBarrierBits(kBufferUpdate, "download");
   EXPECT_TRUE(isFound("buffers", kShaders));
+}
+
+/// The words of a buffer that was filled by `fill`, which returns the name of the buffer, or the faults of the device.
+template <class Fill>
+std::set<std::string> outcomes(const Fill& fill)
+{
+  std::set<std::string> all;
+  constexpr std::uint64_t kSeeds = 40;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed)
+  {
+    lanes::device().setSeed(seed);
+    lanes::device().clearFaults();
+    std::array<std::uint32_t, 2> words = {};
+    glGetNamedBufferSubData(fill(), 0, sizeof(words), words.data());
+    const std::set<std::string>& faults = lanes::device().faults();
+    all.insert(faults.begin(), faults.end());
+    if (faults.empty())
+      all.insert(std::to_string(words[0]) + " " + std::to_string(words[1]));
+  }
+  return all;
+}
+
+GLuint bufferOf(GLbitfield flags)
+{
+  GLuint buffer = 0;
+  glCreateBuffers(1, &buffer);
+  glNamedBufferStorage(buffer, 2 * sizeof(std::uint32_t), nullptr, flags);
+  return buffer;
+}
+
+void clearWhole(GLuint buffer)
+{
+  glClearNamedBufferSubData(buffer, GL_R32UI, 0, 2 * sizeof(std::uint32_t), GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
+
+constexpr std::array<std::uint32_t, 2> kNumbers = {7, 8};
+
+TEST_F(SimulatedDevice, LetsAnUploadToADynamicBufferOvertakeAClearOrACopy)
+{
+  const auto upload = [](GLuint buffer)
+  {
+    glNamedBufferSubData(buffer, 0, sizeof(std::uint32_t), kNumbers.data());
+    return buffer;
+  };
+  EXPECT_EQ(outcomes(
+                [&]
+                {
+                  const GLuint buffer = bufferOf(GL_DYNAMIC_STORAGE_BIT);
+                  clearWhole(buffer);
+                  return upload(buffer);
+                }),
+            (std::set<std::string>{"0 0", "7 0"}));
+  EXPECT_EQ(outcomes(
+                [&]
+                {
+                  const GLuint zeros = bufferOf(0);
+                  clearWhole(zeros);
+                  const GLuint buffer = bufferOf(GL_DYNAMIC_STORAGE_BIT);
+                  glCopyNamedBufferSubData(zeros, buffer, 0, 0, 2 * sizeof(std::uint32_t));
+                  return upload(buffer);
+                }),
+            (std::set<std::string>{"0 0", "7 0"}));
+  EXPECT_EQ(outcomes([&] { return upload(bufferOf(0)); }),
+            std::set<std::string>{"an upload to a buffer without GL_DYNAMIC_STORAGE_BIT"});
+}
+
+TEST_F(SimulatedDevice, KeepsTheOrderOfUploadsByCopies)
+{
+  Buffer buffer;
+  EXPECT_EQ(outcomes(
+                [&]
+                {
+                  buffer = Buffer(2 * sizeof(std::uint32_t));
+                  buffer.clear();
+                  buffer.write(kNumbers.data(), sizeof(std::uint32_t));
+                  return buffer.id();
+                }),
+            std::set<std::string>{"7 0"});
+}
+
+TEST_F(SimulatedDevice, FindsMappedMemoryThatIsWrittenBeforeItsCopyWasMade)
+{
+  constexpr GLbitfield kAccess = GL_MAP_WRITE_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+  const auto stage = [](bool waits)
+  {
+    const GLuint staged = bufferOf(kAccess);
+    auto* const memory =
+        static_cast<std::uint32_t*>(glMapNamedBufferRange(staged, 0, 2 * sizeof(std::uint32_t), kAccess));
+    const GLuint buffer = bufferOf(0);
+    for (std::uint32_t i = 0; i < 2; ++i)
+    {
+      *memory = kNumbers[i];
+      glCopyNamedBufferSubData(staged, buffer, 0, static_cast<GLintptr>(i * sizeof(std::uint32_t)),
+                               sizeof(std::uint32_t));
+      Fence fence;
+      fence.place();
+      if (waits)
+        fence.wait("a copy");
+    }
+    return buffer;
+  };
+  EXPECT_EQ(outcomes([&] { return stage(true); }), std::set<std::string>{"7 8"});
+  EXPECT_EQ(outcomes([&] { return stage(false); })
+                .count("the host has overwritten mapped memory that a copy had not read "
+                       "yet"),
+            1U);
 }
 
 TEST_F(SimulatedDevice, CountsTheWorkOfAKernel)

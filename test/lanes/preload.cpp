@@ -35,6 +35,7 @@ struct Preload
   }
   ~Preload()
   {
+    lanes::device().commands().finish();
     if (lanes::device().counts())
       counts.print(std::cerr);
     const auto& faults = lanes::device().faults();

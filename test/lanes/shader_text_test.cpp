@@ -1,5 +1,6 @@
 // Every shader, with all definitions that the program uses, passes Khronos' reference compiler (glslang) and the
-// validator of SPIR-V. `precise` must reach all operations of its statement: they carry NoContraction in SPIR-V.
+// validator of SPIR-V. `precise` must reach all operations of its statement: they carry NoContraction in SPIR-V. No
+// shader has a loop over constant places of a storage buffer, which NVIDIA's compiler refuses.
 
 #include <array>
 #include <cstdlib>
@@ -13,6 +14,7 @@
 
 #include "gpu/program.h"
 #include "lanes/compute_shaders.h"
+#include "lanes/unrolled_accesses.h"
 
 namespace gpu_planning_scene::core
 {
@@ -188,6 +190,67 @@ TEST_F(ShaderText, FindsAnOperationThatPreciseDoesNotReach)
   };
   EXPECT_EQ(loose("  r = values[1] * values[2] +\n      values[3];\n"), 0U);
   EXPECT_EQ(loose("  r = product(values[1], values[2]) + values[3];\n"), 1U);
+}
+
+TEST(UnrolledAccesses, NoShaderHasOne)
+{
+  const std::set<std::string> texts = computeShaders(kShaders);
+  EXPECT_GT(texts.size(), 30U);
+  for (const std::string& text : texts)
+    for (const std::string& access : unrolledAccesses(text))
+      ADD_FAILURE() << titleOf(text) << ": NVIDIA's compiler refuses " << access << "; write one statement each";
+}
+
+/// The accesses in the body of main().
+std::vector<std::string> unrolledIn(const std::string& body)
+{
+  return unrolledAccesses(
+      "#define VALUES numbers\n"
+      "layout(location = 0) uniform uint count;\n"
+      "layout(std430, binding = 0) buffer Numbers { uint numbers[]; };\n"
+      "shared uint few[3];\n"
+      "void store(uint at, uint value) { numbers[FIRST + at] = value; }\n"
+      "void storeTwice(uint value, uint at) { store(at, value); store(at + 1u, value); }\n"
+      "void main() {\n" +
+      body + "\n}\n");
+}
+
+TEST(UnrolledAccesses, AreFoundInEachKindOfLoop)
+{
+  using Lines = std::vector<std::string>;
+  EXPECT_EQ(unrolledIn("for (uint i = 0u; i < 3u; ++i) numbers[FIRST + i] = 1u;"), Lines{"line 8: numbers[FIRST + i]"});
+  EXPECT_EQ(unrolledIn("for (int i = 2; i >= 0; --i) { few[i] = 0u; VALUES[i] += few[i]; }"),
+            Lines{"line 8: numbers[i]"});
+  EXPECT_EQ(
+      unrolledIn("for (int i = 0; i < SIDE; i++)\nfor (int k = i; k < SIDE; k++)\natomicAdd(numbers[SIDE * i + k], "
+                 "1u);"),
+      Lines{"line 10: numbers[SIDE * i + k]"});
+  EXPECT_EQ(
+      unrolledIn("for (uint i = 0u; i < 3u; ++i) { const uint at = 2u * i; if (few[i] > 0u) numbers[at + 1u] = 1u; }"),
+      Lines{"line 8: numbers[at + 1u]"});
+  EXPECT_EQ(unrolledIn("uint i = 0u; for (; i < 3u; ++i) numbers[i] = 1u;"), Lines{"line 8: numbers[i]"});
+  EXPECT_EQ(unrolledIn("uint i = 0u; while (i < 3u) numbers[i++] = 1u;"), Lines{"line 8: numbers[i++]"});
+  EXPECT_EQ(unrolledIn("uint i = 0u; do { numbers[uint(i)] = 1u; ++i; } while (i < 3u);"),
+            Lines{"line 8: numbers[uint(i)]"});
+  EXPECT_EQ(unrolledIn("for (uint i = 0u; i < 3u; ++i) few[0] = numbers[FIRST + i];"),
+            Lines{"line 8: numbers[FIRST + i]"});
+  EXPECT_EQ(unrolledIn("for (uint i = 0u; i < 3u; ++i) store(2u * i, 1u);"), Lines{"line 8: store(2u * i, 1u)"});
+  EXPECT_EQ(unrolledIn("for (uint i = 0u; i < 3u; ++i) storeTwice(1u, i);").size(), 1U);
+}
+
+TEST(UnrolledAccesses, AtPlacesThatAreNotConstantAreAllowed)
+{
+  for (const char* body : {
+           "numbers[FIRST] = 0u; numbers[FIRST + 1u] = 0u; store(2u, 0u);",
+           "for (uint i = 0u; i < count; ++i) numbers[i] = 0u;",
+           "for (uint i = count; i < 3u; ++i) numbers[i] = 0u;",
+           "for (uint i = 0u; i < 3u; ++i) numbers[count + i] = 0u;",
+           "for (uint i = 0u; i < 3u; ++i) { const uint at = gl_LocalInvocationID.x + i; numbers[at] = 0u; }",
+           "for (uint i = 0u; i < 3u; ++i) { few[i] = 0u; numbers[FIRST] += few[i]; }",
+           "for (uint i = 0u; i < 3u; ++i) store(count, i);",
+           "{ for (uint i = 0u; i < 3u; ++i) few[i] = 0u; } const uint i = count; numbers[i] = 0u;",
+       })
+    EXPECT_EQ(unrolledIn(body), std::vector<std::string>()) << body;
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -102,6 +102,8 @@ Simulator::~Simulator() = default;
 
 void Simulator::setSeed(std::uint64_t seed)
 {
+  commands_.finish();
+  commands_.setSeed(seed);
   hangs_ = false;
   random_.seed(seed);
   run_.random = seed * 0x9e3779b97f4a7c15ULL + 1;
@@ -127,8 +129,10 @@ void Simulator::memoryBarrier(std::uint32_t bits)
 
 bool Simulator::covered(std::uint32_t dispatch, std::uint32_t bit) const
 {
+  if (dispatch == 0)
+    return true;
   const auto found = covered_.find(bit);
-  return dispatch == 0 || (found != covered_.end() && dispatch <= found->second);
+  return found != covered_.end() && dispatch <= found->second;
 }
 
 void Simulator::commandRead(std::uint32_t id, std::size_t offset, std::size_t bytes, void* data, BarrierBit bit)

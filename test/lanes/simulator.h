@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "lanes/command_queue.h"
 #include "lanes/host.h"
 #include "lanes/work_counts.h"
 
@@ -65,6 +66,10 @@ class Simulator : private Memory
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
+  /// The commands that were given to the device. The functions below that begin or end a measurement, or return
+  /// faults, execute all of them first.
+  CommandQueue& commands() { return commands_; }
+
   /// Also ends the state after a dispatch that hung.
   void setSeed(std::uint64_t seed);
   /// Uses IEEE arithmetic in place of the seed's.
@@ -73,7 +78,11 @@ class Simulator : private Memory
   void setResidentGroups(std::size_t groups) { resident_groups_ = groups; }
 
   /// From now on, work is added to these counts. Null: to none.
-  void countWork(WorkCounts* counts) { counts_ = counts; }
+  void countWork(WorkCounts* counts)
+  {
+    commands_.finish();
+    counts_ = counts;
+  }
   WorkCounts* counts() { return counts_; }
 
   std::uint32_t addBlock(std::size_t bytes);
@@ -92,8 +101,18 @@ class Simulator : private Memory
   void dispatch(const Program& program, std::uint32_t columns, std::uint32_t rows);
 
   /// The faults so far, each once.
-  const std::set<std::string>& faults() const { return faults_; }
-  void clearFaults() { faults_.clear(); }
+  const std::set<std::string>& faults()
+  {
+    commands_.finish();
+    return faults_;
+  }
+  void clearFaults()
+  {
+    commands_.finish();
+    faults_.clear();
+  }
+  /// Adds a fault. In a dispatch, the program's name is put before it.
+  void report(const std::string& what);
   std::uint64_t switches() const { return switches_; }
 
  private:
@@ -114,7 +133,6 @@ class Simulator : private Memory
   void barrier(int site) override;
   void fault(const char* text) override;
 
-  void report(const std::string& what);
   Block* find(std::uint32_t binding, std::uint64_t word, std::uint32_t count, std::size_t& at);
   const Variable* variable(std::uint32_t binding) const;
   std::string nameOf(std::uint32_t binding) const;
@@ -128,6 +146,7 @@ class Simulator : private Memory
   void countWork(Group& group);
   void touch(std::uint32_t block, std::size_t word, std::size_t words);
 
+  CommandQueue commands_;
   std::map<std::uint32_t, std::unique_ptr<Block>> blocks_;
   std::map<std::uint32_t, Binding> storage_;
   std::map<std::uint32_t, std::uint32_t> textures_, texture_blocks_;

@@ -9,9 +9,11 @@
 #include "collision/exact/binned_sah.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/gpu/gpu_checker.h"
+#include "collision/gpu/tree_build/gpu_trees.h"
 #include "gpu/float_arithmetic.h"
 #include "gpu/program.h"
 #include "gpu/readback.h"
+#include "gpu/staging_ring.h"
 #include "lanes/gl_device.h"
 #include "lanes/kernel_library.h"
 #include "shader_constants.h"
@@ -143,6 +145,16 @@ std::vector<std::string> checkStates(Traversal traversal, const std::string& sha
   return wrong;
 }
 
+/// Builds the trees of a scene, then those of a changed scene. GpuTrees checks them.
+std::vector<std::string> buildTrees(const std::string& shaders)
+{
+  GpuTrees trees(shaders);
+  const Tessellation few{hills(4), 0.0};
+  trees.setShapes({few, tessellate(Box{{0.05, 0.07, 0.03}})});
+  trees.setShapes({few, Tessellation{hills(9), 0.0}, tessellate(Box{{0.1, 0.1, 0.1}}), Tessellation{hills(2), 0.0}});
+  return {};
+}
+
 std::vector<std::string> testArithmetic(const std::string& shaders)
 {
   std::vector<std::string> wrong;
@@ -197,6 +209,63 @@ void main()
   return wrong;
 }
 
+/// Uploads, clears, copies, downloads and readbacks of random parts of buffers, compared with the same operations on
+/// vectors. The uploads are larger than the staging ring.
+std::vector<std::string> mixTransfers(std::uint64_t seed)
+{
+  constexpr std::size_t kWords = StagingRing::kFirstPieceBytes / sizeof(std::uint32_t) - 64;
+  constexpr std::size_t kBytes = kWords * sizeof(std::uint32_t);
+  constexpr int kOperations = 60;
+  std::mt19937_64 generator(seed);
+  const auto below = [&generator](std::size_t end) { return static_cast<std::size_t>(generator() % end); };
+  std::vector<Buffer> buffers;
+  std::vector<std::vector<std::uint32_t>> expected(2, std::vector<std::uint32_t>(kWords, 0));
+  for (std::size_t i = 0; i < expected.size(); ++i)
+  {
+    buffers.emplace_back(kBytes);
+    buffers.back().clear();
+  }
+  std::vector<std::string> wrong;
+  std::vector<std::uint32_t> found(kWords);
+  Readback readback;
+  for (int i = 0; i < kOperations; ++i)
+  {
+    const std::size_t one = below(2);
+    const std::size_t other = 1 - one;
+    const std::size_t first = below(4) == 0 ? 0 : kWords - 1 - below(64);
+    const auto begin = expected[one].begin() + static_cast<std::ptrdiff_t>(first);
+    switch (below(5))
+    {
+      case 0:
+      case 1:
+        std::generate(begin, expected[one].end(), [&generator] { return static_cast<std::uint32_t>(generator()); });
+        buffers[one].write(&*begin, (kWords - first) * sizeof(std::uint32_t), first * sizeof(std::uint32_t));
+        break;
+      case 2:
+        std::fill(begin, expected[one].end(), 0U);
+        buffers[one].clear(first * sizeof(std::uint32_t), (kWords - first) * sizeof(std::uint32_t));
+        break;
+      case 3:
+        std::copy_n(expected[one].begin(), kWords - first, expected[other].begin());
+        buffers[other].copyFrom(buffers[one], (kWords - first) * sizeof(std::uint32_t));
+        break;
+      default:
+        readback.begin(buffers[one], kBytes);
+        buffers[one].clear(0, sizeof(std::uint32_t));
+        if (!std::equal(expected[one].begin(), expected[one].end(), readback.wait()))
+          wrong.push_back("readback " + std::to_string(i) + " gives wrong numbers");
+        expected[one][0] = 0;
+    }
+  }
+  for (std::size_t i = 0; i < buffers.size(); ++i)
+  {
+    buffers[i].read(found.data(), kBytes);
+    if (found != expected[i])
+      wrong.push_back("buffer " + std::to_string(i) + " has wrong numbers at the end");
+  }
+  return wrong;
+}
+
 using Task = std::function<std::vector<std::string>(const std::string&, std::uint64_t)>;
 
 const std::map<std::string, Task>& tasks()
@@ -208,6 +277,8 @@ const std::map<std::string, Task>& tasks()
        { return checkStates(Traversal::BreadthFirst, shaders, seed); }},
       {"work_queue",
        [](const std::string& shaders, std::uint64_t seed) { return checkStates(Traversal::WorkQueue, shaders, seed); }},
+      {"trees", [](const std::string& shaders, std::uint64_t) { return buildTrees(shaders); }},
+      {"transfers", [](const std::string&, std::uint64_t seed) { return mixTransfers(seed); }},
       {"transforms", checkTransforms},
       {"triangles", checkTriangles},
       {"distances", checkDistances},

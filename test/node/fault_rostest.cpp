@@ -7,6 +7,7 @@
 
 #include "node/child_node.h"
 #include "node/node_client.h"
+#include "support/software_device.h"
 
 namespace gpu_planning_scene::core
 {
@@ -20,6 +21,8 @@ class Fault : public RunningNode
 
 TEST_F(Fault, DiagnosticsReportThatTheCpuHasTakenOver)
 {
+  if (const std::string why = whyNoSoftwareDevice(); !why.empty())
+    GTEST_SKIP() << why;
   // The node loses its device in one of several hundred calls. With device_losses 1 the CPU takes over at the first
   // loss.
   const ChildNode node("faulty_node", {"_device:=software", "_cpu_below:=0", "_device_losses:=1"}, GPS_FAULTY_NODE);

@@ -8,12 +8,16 @@
 #include "model/model_testing.h"
 #include "render/renderer.h"
 #include "scene/slider_robot.h"
+#include "support/software_device.h"
 #include "tools/run_program.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
+using Render = OnSoftwareDevice;
+using RenderTool = OnSoftwareDevice;
+
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 
@@ -66,7 +70,7 @@ double shareOf(const Image& image, IsColor is_color)
   return 3.0 * static_cast<double>(count) / static_cast<double>(image.rgb.size());
 }
 
-TEST(Render, BodiesThatCollideAreRedAndNoOthers)
+TEST_F(Render, BodiesThatCollideAreRedAndNoOthers)
 {
   const PlanningScene scene = sliderAndWall();
   const Image free = pictureOf(scene, cartAt(scene, 0.0));
@@ -78,7 +82,7 @@ TEST(Render, BodiesThatCollideAreRedAndNoOthers)
   EXPECT_GT(shareOf(hit, isRed), 0.02);
 }
 
-TEST(Render, TheSameSceneGivesTheSamePicture)
+TEST_F(Render, TheSameSceneGivesTheSamePicture)
 {
   const PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.5);
@@ -87,7 +91,7 @@ TEST(Render, TheSameSceneGivesTheSamePicture)
   EXPECT_NE(first.rgb, pictureOf(scene, cartAt(scene, 0.4)).rgb);
 }
 
-TEST(Render, ContactPointsAreYellow)
+TEST_F(Render, ContactPointsAreYellow)
 {
   const PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.0);
@@ -95,7 +99,7 @@ TEST(Render, ContactPointsAreYellow)
   EXPECT_GT(shareOf(pictureOf(scene, state, {Eigen::Vector3d(0.1, 0.0, 0.2)}), isYellow), 0.0);
 }
 
-TEST(Render, HiddenContactPointsAreFaintAndNearOnesAreNot)
+TEST_F(Render, HiddenContactPointsAreFaintAndNearOnesAreNot)
 {
   const PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.0);
@@ -112,7 +116,7 @@ TEST(Render, HiddenContactPointsAreFaintAndNearOnesAreNot)
   EXPECT_NE(picture_of({{0.8, 0.0, 0.0}}).rgb, picture_of({}).rgb) << "faint, but visible";
 }
 
-TEST(Render, CollidingLinksThatAnObjectHidesAreFaint)
+TEST_F(Render, CollidingLinksThatAnObjectHidesAreFaint)
 {
   const PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.0);
@@ -142,7 +146,7 @@ PlanningScene greenScene()
   return scene;
 }
 
-TEST(Render, TheSceneStandsOnAFloorWithShadows)
+TEST_F(Render, TheSceneStandsOnAFloorWithShadows)
 {
   const PlanningScene scene = greenScene();
   const std::vector<double> state = cartAt(scene, 0.0);
@@ -156,7 +160,7 @@ TEST(Render, TheSceneStandsOnAFloorWithShadows)
   EXPECT_GT(shareOf(below, isRed), 0.0);
 }
 
-TEST(Render, TheClearestViewIsNotTheBackOfAShelf)
+TEST_F(Render, TheClearestViewIsNotTheBackOfAShelf)
 {
   PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.0);
@@ -177,7 +181,7 @@ TEST(Render, TheClearestViewIsNotTheBackOfAShelf)
 }
 
 /// In the first view, a wall hides a small link, but not the large one.
-TEST(Render, TheClearestViewShowsEachLink)
+TEST_F(Render, TheClearestViewShowsEachLink)
 {
   const std::string urdf = R"(<robot name="r">
   <link name="body"><collision><geometry><box size="1 1 1"/></geometry></collision></link>
@@ -199,7 +203,7 @@ TEST(Render, TheClearestViewShowsEachLink)
   EXPECT_GT(red_in(clearestView(scene, state.data(), {}, {}, up, "software")), 1e-3);
 }
 
-TEST(Render, TheClearestViewShowsACollidingLinkThatAnAttachedObjectHidesFromTheFront)
+TEST_F(Render, TheClearestViewShowsACollidingLinkThatAnAttachedObjectHidesFromTheFront)
 {
   PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.9);
@@ -219,7 +223,7 @@ TEST(Render, TheClearestViewShowsACollidingLinkThatAnAttachedObjectHidesFromTheF
   EXPECT_GT(red_in(clearestView(scene, state.data(), colliding, {}, up, "software")), 0.005);
 }
 
-TEST(Render, AHalfSpaceIsAPlaneBelowTheRobotInsteadOfTheFloor)
+TEST_F(Render, AHalfSpaceIsAPlaneBelowTheRobotInsteadOfTheFloor)
 {
   PlanningScene scene = greenScene();
   scene.colors["floor"] = Color{0.9F, 0.8F, 0.4F, 1.0F};
@@ -233,7 +237,7 @@ TEST(Render, AHalfSpaceIsAPlaneBelowTheRobotInsteadOfTheFloor)
   EXPECT_LT(shareOf(pictureOf(scene, state), isShadedFloor), 0.003) << "smoothed edges alone";
 }
 
-TEST(Render, NearBodiesHideFarBodies)
+TEST_F(Render, NearBodiesHideFarBodies)
 {
   const PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.9);
@@ -250,7 +254,7 @@ TEST(Render, NearBodiesHideFarBodies)
   EXPECT_EQ(red_seen_from(3.0), 0.0);
 }
 
-TEST(Render, CamerasAndSizesThatGiveNoPictureAreRefused)
+TEST_F(Render, CamerasAndSizesThatGiveNoPictureAreRefused)
 {
   const PlanningScene scene = sliderAndWall();
   const std::vector<double> state = cartAt(scene, 0.0);
@@ -273,7 +277,7 @@ TEST(Render, CamerasAndSizesThatGiveNoPictureAreRefused)
             std::string::npos);
 }
 
-TEST(RenderTool, WritesAPngAndNamesWhatCollides)
+TEST_F(RenderTool, WritesAPngAndNamesWhatCollides)
 {
   const TemporaryFolder folder;
   const std::string out = folder.path("picture.png");
@@ -314,7 +318,7 @@ TEST(RenderTool, WritesAPngAndNamesWhatCollides)
     EXPECT_EQ(run(wrong).exit_code, 2) << wrong[0] << " " << wrong[1];
 }
 
-TEST(RenderTool, MeshFilesBecomeObjects)
+TEST_F(RenderTool, MeshFilesBecomeObjects)
 {
   const TemporaryFolder folder;
   const std::string mesh = folder.write("part.obj", "v 0 -1 -1\nv 0 1 -1\nv 0 0 1\nf 1 2 3\n");

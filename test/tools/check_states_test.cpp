@@ -14,6 +14,7 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "model/model_testing.h"
 #include "scene/slider_robot.h"
+#include "support/shader_folder.h"
 #include "support/xacro_stand_in.h"
 #include "tools/run_program.h"
 
@@ -349,6 +350,26 @@ TEST_F(CheckStates, WithoutADeviceItSaysWhatToDo)
   expectError(output, 1, "no usable EGL device");
   EXPECT_NE(std::string::npos, output.err.find("install")) << output.err;
   EXPECT_NE(std::string::npos, output.err.find("'cpu'")) << output.err;
+}
+
+TEST_F(CheckStates, ADeviceThatBuildsWrongTreesIsReplacedByTheCpuUnlessItWasNamed)
+{
+  const ShaderFolder shaders;
+  shaders.replace("tree_build/layout.glsl", "primitive_base + c.reference;", "primitive_base;");
+  setenv("GPU_PLANNING_SCENE_SHADERS", shaders.path().c_str(), 1);
+  const ProgramOutput replaced = check({"--random", "500", "--device", "auto"});
+  const ProgramOutput refused = check({"--random", "500", "--device", "0"});
+  unsetenv("GPU_PLANNING_SCENE_SHADERS");
+  if (replaced.err.find("no usable EGL device") != std::string::npos)
+    GTEST_SKIP() << replaced.err;
+  EXPECT_EQ(replaced.exit_code, 0) << replaced.err;
+  EXPECT_NE(replaced.err.find("warning: the device cannot be used, so the CPU checks the states: the GPU built wrong "
+                              "trees"),
+            std::string::npos)
+      << replaced.err;
+  EXPECT_EQ(replaced.out, check({"--random", "500"}).out);
+  expectError(refused, 1, "the GPU built wrong trees");
+  EXPECT_EQ(refused.out, "");
 }
 
 TEST_F(CheckStates, SaysWhatItIsAndCanDo)

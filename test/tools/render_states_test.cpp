@@ -4,13 +4,16 @@
 
 #include "model/model_testing.h"
 #include "scene/slider_robot.h"
+#include "support/software_device.h"
 #include "tools/run_program.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-TEST(RenderedStates, AStateOutsideTheLimitsIsAWarning)
+using RenderedStates = OnSoftwareDevice;
+
+TEST_F(RenderedStates, AStateOutsideTheLimitsIsAWarning)
 {
   const TemporaryFolder folder;
   const std::string urdf = folder.write("slider.urdf", sliderUrdf());

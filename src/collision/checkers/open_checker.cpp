@@ -1,8 +1,10 @@
 #include "collision/checkers/open_checker.h"
 
+#include <utility>
 #include <vector>
 
 #include "collision/checkers/device_group.h"
+#include "collision/checkers/fallback_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/device.h"
 #include "gpu_planning_scene/error.h"
@@ -38,24 +40,6 @@ std::unique_ptr<StateChecker> openOne(std::shared_ptr<const PlanningScene> scene
     throw Error(std::string(error.what()) + "; or choose the device 'cpu', which needs no GPU");
   }
 }
-
-/// A CpuChecker in place of a device.
-class CpuInstead : public CpuChecker
-{
- public:
-  CpuInstead(std::shared_ptr<const PlanningScene> scene, const CheckerOptions& options, std::string reason)
-    : CpuChecker(std::move(scene), options), reason_(std::move(reason))
-  {
-  }
-
-  std::string deviceWarning() const override
-  {
-    return "the GL device cannot check this scene, so the CPU checks all states; reason: " + reason_;
-  }
-
- private:
-  std::string reason_;
-};
 }  // namespace
 
 std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> scene,
@@ -73,18 +57,26 @@ std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> s
   return std::make_unique<DeviceGroup>(scene, devices, open);
 }
 
-std::unique_ptr<StateChecker> openCheckerOrCpu(const std::shared_ptr<const PlanningScene>& scene,
-                                               const BatchCheckerOptions& options)
+std::unique_ptr<StateChecker> openWithFallback(std::shared_ptr<const PlanningScene> scene,
+                                               const BatchCheckerOptions& options,
+                                               std::function<void(const std::string&)> warn)
 {
+  const bool needs_no_device = options.device == "auto" || options.device == "all";
+  if (!needs_no_device || options.max_batch == 0)  // openChecker refuses this option, which is no fault of a device
+    return openChecker(std::move(scene), options);
   try
   {
-    return openChecker(scene, options);
+    const auto open = [options](std::shared_ptr<const PlanningScene> its_scene)
+    { return openChecker(std::move(its_scene), options); };
+    return std::make_unique<FallbackChecker>(scene, open, options, warn);
   }
   catch (const Error& error)
   {
-    if ((options.device != "auto" && options.device != "all") || !hasDevice())
+    if (!hasDevice())
       throw;
-    return std::make_unique<CpuInstead>(scene, options, error.what());  // throws if the scene or an option is not valid
+    auto checker = std::make_unique<CpuChecker>(std::move(scene), options);  // throws Error if the scene is invalid
+    warn(std::string("the device cannot be used, so the CPU checks the states: ") + error.what());
+    return checker;
   }
 }
 }  // namespace gpu_planning_scene::core

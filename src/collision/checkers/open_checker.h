@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/state_checker.h"
@@ -12,8 +14,10 @@ namespace gpu_planning_scene::core
 std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> scene,
                                           const BatchCheckerOptions& options);
 
-/// The same; but if "auto" or "all" find a device that cannot check the scene, for example because the scene has too
-/// many triangles, a CpuChecker checks it, and its deviceWarning says why.
-std::unique_ptr<StateChecker> openCheckerOrCpu(const std::shared_ptr<const PlanningScene>& scene,
-                                               const BatchCheckerOptions& options);
+/// The same for programs that need answers and not a certain device. With the device "auto" or "all", the CPU answers
+/// if the device fails, now or later, and `warn` gets one line (see FallbackChecker). Throws Error if there is no
+/// device at all, or if the scene or an option is not valid.
+std::unique_ptr<StateChecker> openWithFallback(std::shared_ptr<const PlanningScene> scene,
+                                               const BatchCheckerOptions& options,
+                                               std::function<void(const std::string&)> warn);
 }  // namespace gpu_planning_scene::core

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <deque>
 #include <exception>
 #include <mutex>
@@ -66,6 +67,7 @@ struct ResilientChecker::Impl
 
   template <class Result>
   Result request(const Scene& scene, const Request<Result>& work);
+  bool hasLimit() const { return std::isfinite(options.device_seconds); }
   bool placeOnDevice(const Scene& scene);
   void placeOnCpu(const Scene& scene);
   void openDevice(const Scene& scene, double seconds);
@@ -103,6 +105,8 @@ struct ResilientChecker::Impl
 /// Throws DeviceLost if the job does not end in time. The abandoned thread then owns the objects that the job uses.
 void ResilientChecker::Impl::run(const std::function<void()>& job, double seconds)
 {
+  if (!hasLimit())
+    return job();
   if (thread.run(job, std::min(seconds, kNoLimit)))
     return;
   device.reset();
@@ -338,16 +342,24 @@ BatchResult ResilientChecker::check(const double* states, std::size_t count, con
                                     const JointNeighbourhood* around)
 {
   const std::lock_guard<std::mutex> lock(impl_->mutex);
-  const RobotModel& robot = *impl_->scene->robot;
-  validateStates(robot, states, count);  // here, so that the error names the state's number in the request
-  if (around)
-    validateNeighbourhood(robot, *around, count);
-  // The request owns all objects that it uses, see AbandonableThread.
-  const auto rows = std::make_shared<const std::vector<double>>(states, states + count * robot.variables().size());
-  const auto neighbourhood = around ? std::make_shared<const JointNeighbourhood>(*around) : nullptr;
-  BatchResult result =
-      impl_->request<BatchResult>(impl_->scene, [=](StateChecker& checker)
-                                  { return checker.check(rows->data(), count, group, neighbourhood.get()); });
+  BatchResult result;
+  if (impl_->hasLimit())
+  {
+    const RobotModel& robot = *impl_->scene->robot;
+    validateStates(robot, states, count);
+    if (around)
+      validateNeighbourhood(robot, *around, count);
+    // The request owns all objects that it uses, see AbandonableThread.
+    const auto rows = std::make_shared<const std::vector<double>>(states, states + count * robot.variables().size());
+    const auto neighbourhood = around ? std::make_shared<const JointNeighbourhood>(*around) : nullptr;
+    result = impl_->request<BatchResult>(impl_->scene, [=](StateChecker& checker)
+                                         { return checker.check(rows->data(), count, group, neighbourhood.get()); });
+  }
+  else
+  {
+    result = impl_->request<BatchResult>(
+        impl_->scene, [&](StateChecker& checker) { return checker.check(states, count, group, around); });
+  }
   if (impl_->answered_by_cpu)
   {
     const std::lock_guard<std::mutex> status_lock(impl_->status_mutex);

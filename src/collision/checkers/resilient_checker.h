@@ -25,7 +25,8 @@ struct ResilientOptions
 {
   /// If a call takes longer than this, the device counts as hanging and is never used again. Batches must be small
   /// enough to take far less time. The limit of a scene is device_seconds * (1 + millions of triangles), because their
-  /// trees are built within the call.
+  /// trees are built within the call. Infinite: no limit. Calls then run on the thread of the caller, and states are
+  /// not copied.
   double device_seconds = 30.0;
   std::size_t max_losses = 3;  ///< after this many losses within loss_window seconds, the CPU answers
   double loss_window = 60.0;
@@ -38,8 +39,8 @@ struct ResilientOptions
 /// If the CPU takes a scene and the device does not (e.g. because the scene is too large), the CPU answers for this
 /// scene. The CPU and the device give the same verdicts.
 ///
-/// One thread does all work on the device. If it hangs, it is abandoned together with the objects that it uses, and the
-/// CPU answers from then on. So at most one thread is lost.
+/// With a time limit, one thread does all work on the device. If it hangs, it is abandoned together with the objects
+/// that it uses, and the CPU answers from then on. So at most one thread is lost.
 class ResilientChecker : public StateChecker
 {
  public:

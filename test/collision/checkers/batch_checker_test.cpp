@@ -20,6 +20,7 @@
 #include "support/repetitions.h"
 #include "support/seed.h"
 #include "support/shader_folder.h"
+#include "support/software_device.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core
@@ -340,7 +341,9 @@ TEST(ProofsOnTheDevice, AreForgottenWithTheirScene)
   expectExact(checker, other, balls, "", kSeed + 6);
 }
 
-TEST(SeveralDevices, AnswerLikeOne)
+using SeveralDevices = OnSoftwareDevice;
+
+TEST_F(SeveralDevices, AnswerLikeOne)
 {
   const TestScene& test = testScene("arm_boxes");
   constexpr std::size_t kCount = 40'000;
@@ -353,21 +356,6 @@ TEST(SeveralDevices, AnswerLikeOne)
   EXPECT_EQ(two->check(states.data(), kCount).valid, CpuChecker(test.scene).check(states.data(), kCount).valid);
   options.device = "software+no such device";
   EXPECT_NE(errorOf([&] { openChecker(test.scene, options); }).find("no such device"), std::string::npos);
-}
-
-TEST(OpenCheckerOrCpu, TheCpuTakesASceneThatTheDeviceCannotCheck)
-{
-  const TestScene& test = testScene("arm_boxes");
-  const std::vector<double> states = test.randomStates(100, 3);
-  BatchCheckerOptions options;
-  options.shader_folder =
-      "/no/shaders";  // as a device whose limits the scene exceeds, it throws when it gets the scene
-  const auto checker = openCheckerOrCpu(test.scene, options);
-  EXPECT_EQ(checker->deviceName(), "CPU");
-  EXPECT_NE(checker->deviceWarning().find("the CPU checks all states; reason: "), std::string::npos);
-  EXPECT_EQ(checker->check(states.data(), 100).valid, CpuChecker(test.scene).check(states.data(), 100).valid);
-  options.device = "software";
-  EXPECT_NE(errorOf([&] { openCheckerOrCpu(test.scene, options); }), "") << "the user has named this device";
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -8,7 +8,7 @@
 #include "shader_constants.h"
 
 // New trees are appended to the buffers, so existing ones need not be moved. If too much memory is unused, all trees
-// are dropped and the current ones are built again. Own method.
+// are dropped and the current ones are built again. New trees are read back and checked on the CPU. Own method.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -111,6 +111,9 @@ void GpuTrees::build(const std::vector<Key>& keys)
     meshes.push_back(key.first);
   builder_.buildTriangles(meshes, region, nodes_, leaf_order_, triangles_);
   oriented_boxes_.fit(region, nodes_, triangles_, oriented_nodes_);
+  if (const std::string fault = faultOf(read(region), meshes); !fault.empty())
+    throw Error("the GPU built wrong trees (" + fault +
+                "): its driver does not work as OpenGL specifies; choose another device");
 
   std::uint32_t root = region.first_node;
   std::uint32_t triangle = region.first_primitive;
@@ -133,6 +136,24 @@ void GpuTrees::build(const std::vector<Key>& keys)
   node_count_ += region.node_count;
   primitive_count_ += region.primitive_count;
   depth_ = std::max(depth_, region.depth);
+}
+
+BuiltTrees GpuTrees::read(const ForestRegion& region) const
+{
+  BuiltTrees trees;
+  trees.region = region;
+  const auto read = [](const Buffer& from, std::size_t first, std::size_t count, auto& to)
+  {
+    constexpr std::size_t kBytes = sizeof(to.front());
+    to.resize(count);
+    from.read(to.data(), count * kBytes, first * kBytes);
+  };
+  constexpr std::size_t kFloats = TRIANGLE_TEXELS * TexelBuffer::kTexelBytes / sizeof(float);
+  read(nodes_.buffer(), region.first_node, region.node_count, trees.nodes);
+  read(oriented_nodes_.buffer(), region.first_node, region.node_count, trees.oriented);
+  read(leaf_order_, region.first_primitive, region.primitive_count, trees.leaf_order);
+  read(triangles_.buffer(), region.first_primitive * kFloats, region.primitive_count * kFloats, trees.corners);
+  return trees;
 }
 
 void GpuTrees::addComponents(Entry& entry)

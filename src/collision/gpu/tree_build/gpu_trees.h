@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "collision/gpu/tree_build/built_trees.h"
 #include "collision/gpu/tree_build/gpu_forest.h"
 #include "collision/gpu/tree_build/gpu_oriented_boxes.h"
 #include "gpu/buffer.h"
@@ -34,7 +35,7 @@ class GpuTrees
   explicit GpuTrees(const std::string& shader_folder) : builder_(shader_folder), oriented_boxes_(shader_folder) {}
 
   /// Makes tree(i) the tree of `shapes[i]`. Meshes are compared by pointer: a mesh that had a tree before has the same
-  /// tree now. Throws Error if the device cannot hold the trees; all trees are then gone.
+  /// tree now. Throws Error if the device cannot hold the trees or has built wrong ones; all trees are then gone.
   void setShapes(const std::vector<Tessellation>& shapes);
 
   const Tree& tree(std::size_t number) const { return chosen_[number]->tree; }
@@ -70,6 +71,7 @@ class GpuTrees
   /// Returns the keys that have no entry yet.
   std::vector<Key> claim(const std::vector<Key>& keys, const std::vector<Tessellation>& shapes);
   void build(const std::vector<Key>& keys);
+  BuiltTrees read(const ForestRegion& region) const;
   void addComponents(Entry& entry);
   void clear();
 
