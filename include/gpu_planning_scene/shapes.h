@@ -23,15 +23,19 @@ enum class SolidRule : std::uint8_t
   Filled,   ///< all holes are filled, so each part bounds a solid
 };
 
+/// "auto", "surface" or "filled". solidRuleFrom throws Error for any other name.
+SolidRule solidRuleFrom(const std::string& name);
+std::string toString(SolidRule rule);
+
 /// A triangle mesh in metres, in its own frame. Any topology is allowed. A mesh may be open or cracked. Duplicate
-/// triangles and triangles of zero area are surfaces like all others. Vertices are finite and indices in range; the
-/// loaders and `validateMesh` ensure this. Immutable once shared.
+/// triangles and triangles of zero area are surfaces like all others. solidMeshOf (solids.h) says what it has inside.
+/// Vertices are finite and indices in range; the loaders and `validateMesh` ensure this. Immutable once shared.
 struct Mesh
 {
   std::string name;  ///< origin of the mesh, for messages: a file, or the object that has it
   std::vector<Eigen::Vector3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  SolidRule solid = SolidRule::Auto;
+  SolidRule solid = SolidRule::Auto;  ///< which points it has inside
 };
 
 /// Throws Error if the mesh has no triangle, a coordinate that is not finite or beyond kLargestLength, or an index out
@@ -79,6 +83,10 @@ struct PlacedShape
   Shape shape;
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
 };
+
+/// Gives all meshes of the shapes this rule. Shapes that shared a mesh share its copy. Returns whether a mesh had
+/// another rule.
+bool setSolidRule(std::vector<PlacedShape>& shapes, SolidRule rule);
 
 struct SolidMesh;  // solids.h
 

@@ -1,6 +1,7 @@
 #include "command_line/robot_arguments.h"
 
 #include <iostream>
+#include <map>
 
 namespace gpu_planning_scene::core
 {
@@ -17,7 +18,11 @@ std::vector<Option> robotOptions()
            "groups, and pairs of links that are not checked;\nwithout it, adjacent links are not checked"},
           packageOption(),
           {"--unbounded-translation", "METRES",
-           "planar and floating joints without limits: random positions\nare from -METRES to METRES (default 1)"}};
+           "planar and floating joints without limits: random positions\nare from -METRES to METRES (default 1)"},
+          {"--solid", "LINK=RULE",
+           "what the meshes of a link have inside: auto (default), surface\n(nothing) or filled (holes are filled); "
+           "can be repeated",
+           true}};
 }
 
 std::vector<Option> deviceOptions()
@@ -46,13 +51,38 @@ PackageResolver packagesFrom(const CommandLine& arguments)
   return packageResolver(folders, "name its folder (--package NAME=DIR)");
 }
 
+namespace
+{
+std::map<std::string, SolidRule> solidsFrom(const CommandLine& arguments)
+{
+  std::map<std::string, SolidRule> solids;
+  for (const std::string& text : arguments.values("--solid"))
+  {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError("--solid: '" + text + "' is not LINK=RULE");
+    try
+    {
+      if (!solids.emplace(text.substr(0, equals), solidRuleFrom(text.substr(equals + 1))).second)
+        throw UsageError("--solid: '" + text.substr(0, equals) + "' is given twice");
+    }
+    catch (const Error& error)
+    {
+      throw UsageError(std::string("--solid: ") + error.what());
+    }
+  }
+  return solids;
+}
+}  // namespace
+
 std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, std::vector<std::string>* warnings)
 {
   RobotModelOptions options;
   options.packages = packagesFrom(arguments);
   options.unbounded_translation = arguments.number("--unbounded-translation", options.unbounded_translation, 0.0, 1e6);
   options.info = [](const std::string& line) { std::cerr << line << "\n"; };
-  return RobotModel::fromFiles(arguments.required("--urdf"), arguments.value("--srdf", ""), options, warnings);
+  return RobotModel::fromFiles(arguments.required("--urdf"), arguments.value("--srdf", ""), options, warnings)
+      ->withSolids(solidsFrom(arguments));
 }
 
 BatchCheckerOptions checkerOptionsFrom(const CommandLine& arguments)

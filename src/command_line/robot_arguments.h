@@ -10,7 +10,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// The tools' options for the robot (--urdf, --srdf, --package, --unbounded-translation) and for the device (--device,
+/// The tools' options for the robot (--urdf, --srdf, --package, --unbounded-translation, --solid) and for the device
+/// (--device,
 /// --traversal, --max-batch, --tolerance).
 std::vector<Option> robotOptions();
 /// --package alone, which is also one of robotOptions().

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "gpu_planning_scene/body_parts.h"
 #include "model/text/one_line.h"
 
 namespace gpu_planning_scene::core
@@ -113,6 +114,8 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
   if (!report.decided.empty())
     lines.push_back(std::string("states decided on the CPU") +
                     (report.cpu_below ? ", also in measurements of its speed: " : ": ") + decidedText(report.decided));
+  for (const std::string& line : describeOpenParts(scene))
+    lines.push_back(line);
   std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);
   return lines;
 }

@@ -197,6 +197,13 @@ SolidMesh makeSolidMesh(const std::shared_ptr<const Mesh>& mesh)
     if (!open.empty())
       closeOpenParts(triangles, places, bounds.diagonal().norm(), std::move(open), solid);
   }
+  else
+  {
+    MeshPart whole{PartKind::Surface, triangles.size(), {}};
+    for (const Eigen::Vector3d& point : places.points)
+      whole.bounds.extend(point);
+    solid.parts.other.push_back(whole);
+  }
   addComponents(solid, cornersOf(*solid.mesh, places), places.points.size());
   return solid;
 }

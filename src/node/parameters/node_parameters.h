@@ -18,9 +18,9 @@ namespace gpu_planning_scene::core
 // For a value of the wrong type or out of range, each function throws Error, which names the parameter.
 
 /// Makes the scene from the parameters robot_description, robot_description_semantic (both are searched for from the
-/// node's namespace upwards and can be remapped), ~scene, ~packages, ~urdf_folder, ~unbounded_translation and ~mesh/.
-/// `defaults` gets the values of robot_description_planning/, which apply to links and objects that the scene file does
-/// not name.
+/// node's namespace upwards and can be remapped), ~scene, ~packages, ~solids, ~urdf_folder, ~unbounded_translation and
+/// ~mesh/. `defaults` gets the values of robot_description_planning/, which apply to links and objects that the scene
+/// file does not name.
 PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneDefaults& defaults,
                                   std::vector<std::string>* warnings);
 

@@ -5,6 +5,7 @@
 #include "gpu_planning_scene/octomap.h"
 #include "scene/files/scene_reader.h"
 #include "scene/missing_link.h"
+#include "scene/solid_rules.h"
 #include "scene/validate_scene.h"
 
 namespace gpu_planning_scene::core
@@ -60,7 +61,7 @@ WorldObject readObject(const YamlValue& value, SceneReader& reader)
 {
   const std::initializer_list<const char*> keys = {
       "header",     "pose",   "id",          "type",           "primitives",     "primitive_poses", "meshes",
-      "mesh_poses", "planes", "plane_poses", "subframe_names", "subframe_poses", "operation"};
+      "mesh_poses", "planes", "plane_poses", "subframe_names", "subframe_poses", "operation",       "solid"};
   value.warnOfUnknownKeys(keys, reader.warnings);
   requireAdd(value);
   WorldObject object;
@@ -73,6 +74,12 @@ WorldObject readObject(const YamlValue& value, SceneReader& reader)
   if (object.shapes.empty())
     value.fail("object '" + object.id + "' has no shapes; give it primitives, meshes or planes" +
                value.unknownKeyText(keys));
+  if (const YamlValue* solid = value.find("solid"))
+  {
+    if (!solidRuleOf(object.shapes))
+      solid->fail("object '" + object.id + "' has no mesh; only meshes have a rule for their solid");
+    setSolidRule(object.shapes, readSolidRule(*solid));
+  }
   if (const YamlValue* type = value.find("type"))
     object.type = readObjectType(*type, reader);
   // An unset pose counts as no pose. An object with one shape then takes the pose of that shape, as in messages.

@@ -23,6 +23,7 @@ PlanningScene sceneFromYaml(const YamlValue& file, const std::string& folder, st
                                                                 "allowed_collisions",
                                                                 "link_padding",
                                                                 "link_scale",
+                                                                "link_solid",
                                                                 "object_colors",
                                                                 "world",
                                                                 "octomap",
@@ -63,6 +64,7 @@ PlanningScene sceneFromYaml(const YamlValue& file, const std::string& folder, st
   }
   scene.link_padding = readLinkPadding(file, reader);
   scene.setLinkScale(readLinkScale(file, reader));
+  scene.robot = scene.robot->withSolids(readLinkSolids(file, reader));
   scene.colors = readColors(file, reader);
   scene.fixed_frames = reader.fixed_frames;
   scene.fixed_frames.erase(robot->planningFrame());
