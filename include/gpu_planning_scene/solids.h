@@ -70,6 +70,9 @@ struct SolidMesh
   bool hasSolid() const;
   /// Whether all triangles with three different corners count for the solid.
   bool isAllSolid() const;
+  /// Whether a triangle belongs to a part that bounds no solid, for pictures: a triangle of the role Surface in a mesh
+  /// with such a part.
+  bool isOpen(std::size_t triangle) const;
 };
 
 /// Finds out which points a mesh has inside, and closes it where that is needed.

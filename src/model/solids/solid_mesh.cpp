@@ -276,6 +276,11 @@ bool SolidMesh::isAllSolid() const
   return true;
 }
 
+bool SolidMesh::isOpen(std::size_t triangle) const
+{
+  return roles[triangle] == TriangleRole::Surface && parts.count(PartKind::Surface) != 0;
+}
+
 std::shared_ptr<const SolidMesh> solidMeshOf(const std::shared_ptr<const Mesh>& mesh)
 {
   if (std::shared_ptr<const SolidMesh> known = solidRegistry().find(mesh))
