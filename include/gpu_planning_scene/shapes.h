@@ -97,7 +97,7 @@ struct Tessellation
   std::shared_ptr<const Mesh>
       mesh;              ///< inscribed: all vertices are on the true surface. Of a mesh: with its holes filled
   double sagitta = 0.0;  ///< metres; 0 for boxes and meshes, which are exact
-  std::shared_ptr<const SolidMesh> solid;  ///< of a mesh: see solidMeshOf
+  std::shared_ptr<const SolidMesh> solid = nullptr;  ///< of a mesh: see solidMeshOf
 };
 
 /// Makes triangles of the surface of a shape. The sagitta of curved shapes is at most 100 micrometres, unless that

@@ -41,7 +41,7 @@ Tessellation tessellateBox(const Box& box)
   }
   mesh->triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                      {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  return {mesh, 0.0, nullptr};
+  return {mesh, 0.0};
 }
 
 // Adds the corners of a regular polygon with `sides` sides, inscribed in a circle. Returns the index of the first
@@ -110,7 +110,7 @@ Tessellation tessellateCylinder(const Cylinder& cylinder)
     mesh->triangles.push_back({bottom + i, bottom + next, top + next});
     mesh->triangles.push_back({bottom + i, top + next, top + i});
   }
-  return {mesh, ringSagitta(cylinder.radius, sides), nullptr};
+  return {mesh, ringSagitta(cylinder.radius, sides)};
 }
 
 // At height z, the slice of the solid is a disk of radius rho <= r, and the slice of the tessellation the inscribed
@@ -124,7 +124,7 @@ Tessellation tessellateCone(const Cone& cone)
   const std::uint32_t base = addRing(*mesh, cone.radius, -top_z, sides);
   addFan(*mesh, base, addVertex(*mesh, {0.0, 0.0, -top_z}), sides, false);
   addFan(*mesh, base, addVertex(*mesh, {0.0, 0.0, top_z}), sides, true);
-  return {mesh, ringSagitta(cone.radius, sides), nullptr};
+  return {mesh, ringSagitta(cone.radius, sides)};
 }
 
 // The faces of an icosahedron, each divided into `frequency`^2 triangles and projected to the unit sphere.
@@ -237,7 +237,7 @@ Tessellation tessellateSphere(const Sphere& sphere)
       mesh->triangles = unit.triangles;
       for (const Eigen::Vector3d& vertex : unit.vertices)
         mesh->vertices.push_back(sphere.radius * vertex);
-      return {mesh, sagitta, nullptr};
+      return {mesh, sagitta};
     }
   }
 }

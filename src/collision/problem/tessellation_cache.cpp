@@ -23,7 +23,7 @@ Tessellation TessellationCache::of(const Shape& shape)
   }
   Entry& entry = primitives_[ShapeKey(shape)];
   if (auto mesh = entry.mesh.lock())
-    return {std::move(mesh), entry.sagitta, nullptr};
+    return {std::move(mesh), entry.sagitta};
   const Tessellation made = tessellate(shape);
   entry = {made.mesh, made.sagitta};
   return made;
