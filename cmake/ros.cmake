@@ -19,6 +19,7 @@ add_message_files(FILES
   AttachedCollisionObject.msg
   CollisionObject.msg
   ContactInformation.msg
+  BodySolid.msg
   LinkPadding.msg
   LinkScale.msg
   NearestPair.msg

@@ -235,8 +235,8 @@
 #define STATE_HIT 1u
 #define STATE_UNDECIDED 2u
 
-// Kinds of the shape of an instance. SOLID_NONE is a mesh without closed components: it is a surface and has no inside.
-// All other kinds are solids.
+// Kinds of the shape of an instance. SOLID_NONE is a mesh without a part that bounds a solid: it is a surface and has no
+// inside. All other kinds are solids.
 #define SOLID_NONE 0u
 #define SOLID_BOX 1u
 #define SOLID_SPHERE 2u
@@ -248,6 +248,12 @@
 // The GPU tests a mesh for containment only if it has at most this many connected components. Otherwise the state
 // becomes undecided.
 #define MAX_COMPONENTS 1024
+// What a triangle of a mesh counts for (TriangleRole in gpu_planning_scene/solids.h), in ROLE_BITS bits.
+#define ROLE_SURFACE 0u
+#define ROLE_WINDING 1u
+#define ROLE_PARITY 2u
+#define ROLE_BITS 2u
+#define ROLES_PER_WORD 16u
 
 // A pair of instances is packed into one uint. The upper bits hold a robot instance. The lower PAIR_OTHER_BITS bits
 // hold the other instance: first come the robot instances, then the world instances, then the half-spaces.

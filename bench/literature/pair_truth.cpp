@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "literature/descent.h"
@@ -16,10 +17,17 @@ double withoutRounding(double distance)
 {
   return distance <= kRounding ? 0.0 : distance;
 }
+/// The mesh without its solid: FCL and the methods of the literature know only triangles.
+oracle::PreparedMesh surfaceOf(const Mesh& mesh)
+{
+  const auto surface = std::make_shared<Mesh>(mesh);
+  surface->solid = SolidRule::Surface;
+  return oracle::PreparedMesh(*solidMeshOf(surface));
+}
 }  // namespace
 
 PairTruth::PairTruth(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b)
-  : solid_a_(a), solid_b_(b), surface_a_(*a), surface_b_(*b)
+  : solid_a_(a), solid_b_(b), surface_a_(surfaceOf(*a)), surface_b_(surfaceOf(*b))
 {
 }
 

@@ -215,6 +215,10 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   /// their shapes with the loaded robot. Throws Error if the number of factors is wrong, if a factor is not finite or
   /// not above 0, or if a scaled shape is not valid.
   std::shared_ptr<const RobotModel> scaled(const std::vector<double>& factors) const;
+  /// The robot with other rules for the meshes of some links, by name. It keeps its scale. Throws Error for an unknown
+  /// link.
+  std::shared_ptr<const RobotModel> withSolids(const std::map<std::string, SolidRule>& rules) const;
+
   /// The scale factors of this robot, one per link; empty: all 1.
   const std::vector<double>& linkScale() const { return link_scale_; }
 

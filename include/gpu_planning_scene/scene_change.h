@@ -102,6 +102,9 @@ struct SceneChange
   std::map<std::string, double> link_scale;
   std::map<std::string, Color> colors;
   std::vector<ObjectChange> objects;  ///< applied in this order
+  /// Rules for the meshes of links and objects, by name. Links and objects that are not named keep their rules, also in
+  /// a full scene; new objects have SolidRule::Auto. Shapes that are appended to an object take its rule.
+  std::map<std::string, SolidRule> solids;
 };
 
 /// Limits of a scene after a change; 0: no limit.

@@ -11,6 +11,7 @@
 #include "bindings/arguments.h"
 #include "bindings/bindings.h"
 #include "bindings/shapes.h"
+#include "gpu_planning_scene/body_parts.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "scene/has_body.h"
@@ -32,6 +33,27 @@ WorldObject& objectOf(PlanningScene& scene, const std::string& id)
     if (object.id == id)
       return object;
   throw Error("the scene has no object '" + id + "' in the world");
+}
+
+py::list openParts(const PlanningScene& scene)
+{
+  const std::vector<core::BodyPart> parts = withoutLock([&] { return core::openParts(scene); });
+  py::list list;
+  for (const core::BodyPart& entry : parts)
+  {
+    py::dict part;
+    part["body"] = scene.bodyName(entry.body);
+    part["mesh"] = entry.mesh;
+    part["kind"] = entry.part.kind == core::PartKind::Surface  ? "surface"
+                   : entry.part.kind == core::PartKind::Filled ? "filled"
+                                                               : "mended";
+    part["triangles"] = entry.part.triangles;
+    part["holes"] = entry.part.holes;
+    part["largest_hole"] = entry.part.largest_hole;
+    part["hole_share"] = entry.part.hole_share;
+    list.append(part);
+  }
+  return list;
 }
 
 double validPadding(double padding, const std::string& body)
@@ -274,6 +296,11 @@ void addPlanningScene(py::module_& module)
             return names;
           },
           "The names of all bodies, by body index.")
+      .def("open_parts", &openParts,
+           "The parts of meshes that were not closed in their files: a list of dicts with body (its name), mesh, kind "
+           "(mended, filled, or surface: a body inside it does not collide), triangles, holes, largest_hole (metres) "
+           "and "
+           "hole_share (of the part's area).")
       .def(
           "frame",
           [](const PlanningScene& self, const Name& name, const py::object& state)

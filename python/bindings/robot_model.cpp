@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <random>
 #include <string>
@@ -284,6 +285,19 @@ void addRobotModel(py::module_& module)
                   "MoveIt's joint_limits. urdf_folder: the start of relative paths of "
                   "meshes; without it they are refused. Everything else is as in from_files.\n\n"
                   "    gps.RobotModel.from_xml(pathlib.Path(\"robot.urdf\").read_text())")
+      .def(
+          "with_solids",
+          [](const RobotModel& robot, const std::map<std::string, std::string>& solids)
+          {
+            std::map<std::string, core::SolidRule> rules;
+            for (const auto& [link, rule] : solids)
+              rules[link] = core::solidRuleFrom(rule);
+            return std::const_pointer_cast<RobotModel>(robot.withSolids(rules));
+          },
+          py::arg("solids"),
+          "The robot with other rules for the meshes of some links.\n\nsolids: the rule by link: auto, surface or "
+          "filled, see Mesh.\n\nRaises Error for an unknown link or rule.\n\n"
+          "    robot.with_solids({\"base\": \"filled\"})")
       .def_property_readonly("name", &RobotModel::name)
       .def_property_readonly("planning_frame", &RobotModel::planningFrame, "The frame of all poses of links.")
       .def_property_readonly("links", &RobotModel::links, "Parents before children; [0] is the root link.")

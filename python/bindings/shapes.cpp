@@ -29,10 +29,12 @@ T valid(const T& shape, const char* where)
   return shape;
 }
 
-std::shared_ptr<Mesh> meshFrom(py::handle vertices, py::handle triangles, const Arg<std::string>& name)
+std::shared_ptr<Mesh> meshFrom(py::handle vertices, py::handle triangles, const Arg<std::string>& name,
+                               const Arg<std::string>& solid)
 {
   const auto mesh = std::make_shared<Mesh>();
   mesh->name = name.value;
+  mesh->solid = core::solidRuleFrom(solid.value);
   const ArrayOf<double> points = arrayFrom(vertices, "the vertices of a mesh");
   const py::array indices = anyArrayFrom(triangles);
   if (!indices || std::string("iu").find(indices.dtype().kind()) == std::string::npos)
@@ -59,7 +61,7 @@ std::shared_ptr<Mesh> meshFrom(py::handle vertices, py::handle triangles, const 
   return mesh;
 }
 
-std::shared_ptr<Mesh> meshFromFile(py::handle path, py::handle scale)
+std::shared_ptr<Mesh> meshFromFile(py::handle path, py::handle scale, const Arg<std::string>& solid)
 {
   Eigen::Vector3d factors = Eigen::Vector3d::Ones();
   if (PyNumber_Check(scale.ptr()) != 0 && PySequence_Check(scale.ptr()) == 0)
@@ -67,7 +69,10 @@ std::shared_ptr<Mesh> meshFromFile(py::handle path, py::handle scale)
   else
     factors = vectorFrom(scale, "the scale of a mesh");
   const std::string file = pathFrom(path, "the path of a mesh");
-  return std::const_pointer_cast<Mesh>(withoutLock([&] { return core::MeshCache().load(file, factors); }));
+  const core::SolidRule rule = core::solidRuleFrom(solid.value);
+  std::vector<core::PlacedShape> shapes = {{withoutLock([&] { return core::MeshCache().load(file, factors); })}};
+  core::setSolidRule(shapes, rule);
+  return std::const_pointer_cast<Mesh>(std::get<std::shared_ptr<const Mesh>>(shapes.front().shape));
 }
 
 /// Adds the properties radius and length.
@@ -183,21 +188,27 @@ void addShapes(py::module_& module)
       .def_readonly("offset", &HalfSpace::offset, "Metres.");
   py::class_<Mesh, std::shared_ptr<Mesh>>(
       module, "Mesh",
-      "A triangle mesh in its own frame, of any topology. A closed component bounds a solid; an open component is a "
-      "surface. Objects that use the same Mesh share one tree.\n\nvertices: metres, shape (v, 3). triangles: indices "
+      "A triangle mesh in its own frame, of any topology. Parts that are closed, or whose holes are small, bound "
+      "solids; "
+      "others are surfaces. solid: \"auto\"; \"surface\", which has nothing inside; or \"filled\", which fills all "
+      "holes. Objects that use the same Mesh share one tree.\n\nvertices: metres, shape (v, 3). triangles: indices "
       "of vertices, shape (t, 3). name: the origin of the mesh, for messages. The arrays are copied.\n\nRaises Error "
       "for other shapes, without a triangle, for a vertex that is not finite, and for an index out of range.\n\n"
       "    gps.Mesh([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0]], [[0, 1, 2]])")
-      .def(py::init([](const py::object& vertices, const py::object& triangles, const Arg<std::string>& name)
-                    { return meshFrom(vertices, triangles, name); }),
-           py::arg("vertices"), py::arg("triangles"), py::arg("name") = "a mesh")
+      .def(py::init([](const py::object& vertices, const py::object& triangles, const Arg<std::string>& name,
+                       const Arg<std::string>& solid) { return meshFrom(vertices, triangles, name, solid); }),
+           py::arg("vertices"), py::arg("triangles"), py::arg("name") = "a mesh", py::arg("solid") = "auto")
       .def_static(
-          "from_file", [](const py::object& path, const py::object& scale) { return meshFromFile(path, scale); },
-          py::arg("path"), py::arg("scale") = 1.0,
+          "from_file",
+          [](const py::object& path, const py::object& scale, const Arg<std::string>& solid)
+          { return meshFromFile(path, scale, solid); },
+          py::arg("path"), py::arg("scale") = 1.0, py::arg("solid") = "auto",
           "Reads an STL, DAE, OBJ or PLY file. scale: a factor, or three factors for x, y and z; negative factors "
           "mirror the mesh.\n\nRaises Error if the file cannot be read or has no triangles.\n\n"
           "    gps.Mesh.from_file(\"part.stl\", scale=0.001)")
       .def_readonly("name", &Mesh::name, "The origin of the mesh.")
+      .def_property_readonly(
+          "solid", [](const Mesh& mesh) { return core::toString(mesh.solid); }, "auto, surface or filled.")
       .def_property_readonly(
           "vertices",
           [](const py::object& self)

@@ -1,16 +1,15 @@
-// Tests whether a point is inside the solid that the closed components of a mesh bound. The signed crossings of a ray
-// along a coordinate axis add up to the winding number of the point, which is 0 outside (Jacobson, Kavan and
-// Sorkine-Hornung 2013, "Robust Inside-Outside Segmentation using Generalized Winding Numbers"). A ray that passes too
-// near to an edge, or begins too near to the surface, decides nothing.
+// Tests whether a point is inside the solid of a mesh. The signed crossings of a ray along a coordinate axis add up to
+// the winding number of the point, which is 0 outside (Jacobson, Kavan and Sorkine-Hornung 2013, "Robust Inside-Outside
+// Segmentation using Generalized Winding Numbers"). For triangles that cannot be oriented, an odd number of crossings
+// means inside. A ray that passes too near to an edge, or begins too near to the surface, decides nothing.
 layout(std430, binding = BINDING_A) readonly buffer LeafOrder { uint leaf_order[]; };
-layout(std430, binding = BINDING_B) readonly buffer SolidTriangles { uint solid_triangles[]; };  // one bit per triangle
+layout(std430, binding = BINDING_B) readonly buffer TriangleRoles { uint triangle_roles[]; };  // ROLE_BITS each
 
-// Returns true if the triangle at this place of the leaf order belongs to a closed component. Only these triangles
-// count.
-bool boundsSolid(uint primitive)
+// What the triangle at this place of the leaf order counts for: ROLE_*.
+uint roleOf(uint primitive)
 {
   const uint triangle = leaf_order[primitive];
-  return (solid_triangles[triangle >> 5u] >> (triangle & 31u) & 1u) != 0u;
+  return triangle_roles[triangle / ROLES_PER_WORD] >> (ROLE_BITS * (triangle % ROLES_PER_WORD)) & ((1u << ROLE_BITS) - 1u);
 }
 
 // The crossing of a triangle by the ray from the origin along +z: +1 or -1 by the direction of the triangle, 0 if the
@@ -70,6 +69,7 @@ uint insideMesh(uint root, vec3 point, float error, inout uint iterations)
     stack[0] = root;
     int top = 1;
     int winding = 0;
+    uint crossings = 0u;  // of the triangles that count by parity
     bool certain = true;
     for (; top > 0 && certain && iterations > 0u; --iterations)
     {
@@ -98,15 +98,17 @@ uint insideMesh(uint root, vec3 point, float error, inout uint iterations)
           c[k] = corners[k] - point;
           c[k] = vec3(c[k][(axis + 1) % 3], c[k][(axis + 2) % 3], c[k][axis]);
         }
-        const int crossed = boundsSolid(i) ? crossing(c, error) : 0;
+        const uint role = roleOf(i);
+        const int crossed = role == ROLE_SURFACE ? 0 : crossing(c, error);
         certain = certain && crossed != UNCERTAIN_CROSSING;
-        winding += crossed;
+        winding += role == ROLE_WINDING ? crossed : 0;
+        crossings += role == ROLE_PARITY ? uint(abs(crossed)) : 0u;
       }
     }
     if (certain && top > 0)
       return STATE_UNDECIDED;
     if (certain)
-      return winding != 0 ? STATE_HIT : 0u;
+      return winding != 0 || (crossings & 1u) != 0u ? STATE_HIT : 0u;
   }
   return STATE_UNDECIDED;
 }

@@ -1,5 +1,5 @@
 // One invocation per entry of a traversal. It does nothing if the state of the entry has a hit already. If one shape is
-// a mesh with closed components, the invocation tests whether a component of the other shape is inside this mesh
+// a mesh with a solid, the invocation tests whether a component of the other shape is inside this mesh
 // without crossing its surface. The winding number of one point per component decides (geometry/winding_number.glsl).
 // It reports the verdict.
 #include "shader_constants.h"

@@ -1,6 +1,7 @@
 #include "command_line/robot_arguments.h"
 
 #include <iostream>
+#include <map>
 
 #include "gpu_planning_scene/planning_file.h"
 
@@ -23,7 +24,11 @@ std::vector<Option> robotOptions()
           {"--planning", "FILE",
            "position limits: a YAML file with MoveIt's joint_limits; they\nreplace those of the URDF"},
           {"--unbounded-translation", "METRES",
-           "planar and floating joints without limits: random positions\nare from -METRES to METRES (default 1)"}};
+           "planar and floating joints without limits: random positions\nare from -METRES to METRES (default 1)"},
+          {"--solid", "LINK=RULE",
+           "what the meshes of a link have inside: auto (default), surface\n(nothing) or filled (holes are filled); "
+           "can be repeated",
+           true}};
 }
 
 std::vector<Option> deviceOptions()
@@ -57,6 +62,30 @@ PackageResolver packagesFrom(const CommandLine& arguments)
   return packageResolver(packageFoldersFrom(arguments), "name its folder (--package NAME=DIR)");
 }
 
+namespace
+{
+std::map<std::string, SolidRule> solidsFrom(const CommandLine& arguments)
+{
+  std::map<std::string, SolidRule> solids;
+  for (const std::string& text : arguments.values("--solid"))
+  {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos || equals == 0)
+      throw UsageError("--solid: '" + text + "' is not LINK=RULE");
+    try
+    {
+      if (!solids.emplace(text.substr(0, equals), solidRuleFrom(text.substr(equals + 1))).second)
+        throw UsageError("--solid: '" + text.substr(0, equals) + "' is given twice");
+    }
+    catch (const Error& error)
+    {
+      throw UsageError(std::string("--solid: ") + error.what());
+    }
+  }
+  return solids;
+}
+}  // namespace
+
 std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, std::vector<std::string>* warnings)
 {
   return robotFrom(arguments, arguments.value("--srdf", ""), warnings);
@@ -72,7 +101,8 @@ std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, const 
   if (const std::string planning = arguments.value("--planning", ""); !planning.empty())
     options.position_limits = readPositionLimits(planning, warnings);
   options.info = [](const std::string& line) { std::cerr << line << "\n"; };
-  return RobotModel::fromFiles(arguments.required("--urdf"), srdf, options, warnings);
+  return RobotModel::fromFiles(arguments.required("--urdf"), srdf, options, warnings)
+      ->withSolids(solidsFrom(arguments));
 }
 
 BatchCheckerOptions checkerOptionsFrom(const CommandLine& arguments)

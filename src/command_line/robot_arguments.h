@@ -11,7 +11,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// The tools' options for the robot (--urdf, --srdf, --package, --planning, --unbounded-translation) and for the device
+/// The tools' options for the robot (--urdf, --srdf, --package, --planning, --unbounded-translation, --solid) and for the
+/// device
 /// (--device,
 /// --traversal, --max-batch, --tolerance).
 std::vector<Option> robotOptions();

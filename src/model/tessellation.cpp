@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "gpu_planning_scene/shapes.h"
+#include "gpu_planning_scene/solids.h"
 #include "model/math_constants.h"
 
 // Triangles for solids: boxes exactly, cylinders and cones by inscribed regular polygons, spheres by a subdivided
@@ -247,7 +248,12 @@ struct Tessellator
   Tessellation operator()(const Sphere& sphere) const { return tessellateSphere(sphere); }
   Tessellation operator()(const Cylinder& cylinder) const { return tessellateCylinder(cylinder); }
   Tessellation operator()(const Cone& cone) const { return tessellateCone(cone); }
-  Tessellation operator()(const std::shared_ptr<const Mesh>& mesh) const { return {mesh, 0.0}; }
+  Tessellation operator()(const std::shared_ptr<const Mesh>& mesh) const
+  {
+    std::shared_ptr<const SolidMesh> solid = solidMeshOf(mesh);
+    // Whoever holds the triangles holds the solid too, so that the mesh is not closed again.
+    return {std::shared_ptr<const Mesh>(solid, solid->mesh.get()), 0.0, solid};
+  }
   Tessellation operator()(const HalfSpace& /*half_space*/) const
   {
     throw std::logic_error("a half-space has no finite surface");

@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "gpu_planning_scene/solids.h"
 #include "render/renderer.h"
 
 namespace gpu_planning_scene::core
@@ -13,6 +14,7 @@ namespace
 {
 constexpr BodyColor kLink{186, 190, 196, 255};
 constexpr BodyColor kCarried{120, 170, 120, 255};
+constexpr BodyColor kOpen{150, 90, 170, 255};
 constexpr BodyColor kFloor{226, 229, 234, 255};
 constexpr std::array<BodyColor, 6> kObjects{{{222, 196, 150, 255},
                                              {150, 182, 214, 255},
@@ -38,14 +40,23 @@ class Painter
     }
   }
 
-  void addMesh(const Mesh& mesh, const Eigen::Isometry3d& pose, const BodyColor& color)
+  /// Triangles that bound no solid have a tinge of violet.
+  void addMesh(const Tessellation& tessellation, const Eigen::Isometry3d& pose, const BodyColor& color)
   {
+    const Mesh& mesh = *tessellation.mesh;
+    BodyColor open = color;
+    for (std::size_t i = 0; i < 3; ++i)
+      open[i] = static_cast<std::uint8_t>((open[i] + 2 * kOpen[i]) / 3);
     std::vector<Eigen::Vector3d> placed;
     placed.reserve(mesh.vertices.size());
     for (const Eigen::Vector3d& vertex : mesh.vertices)
       placed.push_back(pose * vertex);
-    for (const auto& [a, b, c] : mesh.triangles)
-      addTriangle(placed[a], placed[b], placed[c], color);
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    {
+      const auto& [a, b, c] = mesh.triangles[i];
+      const bool is_open = tessellation.solid && tessellation.solid->isOpen(i);
+      addTriangle(placed[a], placed[b], placed[c], is_open ? open : color);
+    }
   }
 
   /// Adds the part of the half-space's plane around `center`: a square with edges of twice `half_size`.
@@ -69,10 +80,10 @@ class Painter
 class Tessellations
 {
  public:
-  std::shared_ptr<const Mesh> of(const Shape& shape)
+  Tessellation of(const Shape& shape)
   {
-    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
-      return *mesh;
+    if (std::holds_alternative<std::shared_ptr<const Mesh>>(shape))
+      return tessellate(shape);
     std::array<double, 4> key{static_cast<double>(shape.index()), 0.0, 0.0, 0.0};
     if (const auto* box = std::get_if<Box>(&shape))
       std::copy_n(box->size.data(), 3, key.begin() + 1);
@@ -82,14 +93,14 @@ class Tessellations
       key = {key[0], cylinder->radius, cylinder->length, 0.0};
     else if (const auto* cone = std::get_if<Cone>(&shape))
       key = {key[0], cone->radius, cone->length, 0.0};
-    std::shared_ptr<const Mesh>& mesh = made_[key];
-    if (!mesh)
-      mesh = tessellate(shape).mesh;
-    return mesh;
+    Tessellation& made = made_[key];
+    if (!made.mesh)
+      made = tessellate(shape);
+    return made;
   }
 
  private:
-  std::map<std::array<double, 4>, std::shared_ptr<const Mesh>> made_;
+  std::map<std::array<double, 4>, Tessellation> made_;
 };
 
 void addFloor(const Eigen::AlignedBox3d& near, const Eigen::Vector3d& up, Drawing& drawing, Painter& painter)
@@ -230,7 +241,7 @@ Drawing drawingOf(const PlanningScene& scene, const double* state, const std::ve
         has_plane = true;
       }
       else
-        painter.addMesh(*tessellations.of(shape.shape), pose, color);
+        painter.addMesh(tessellations.of(shape.shape), pose, color);
     }
     const std::size_t end = drawing.vertices.size();
     const bool is_object = body >= links && body < links + scene.objects.size();
@@ -244,7 +255,7 @@ Drawing drawingOf(const PlanningScene& scene, const double* state, const std::ve
   drawing.bodies_end = drawing.vertices.size();
   const Shape dot = Sphere{0.5 * contactDiameter(scene, poses, colliding, near)};
   for (const Eigen::Vector3d& point : contact_points)
-    painter.addMesh(*tessellations.of(dot), Eigen::Isometry3d(Eigen::Translation3d(point)), kContactColor);
+    painter.addMesh(tessellations.of(dot), Eigen::Isometry3d(Eigen::Translation3d(point)), kContactColor);
   drawing.contacts_end = drawing.vertices.size();
   if (!has_plane)
     addFloor(near, up, drawing, painter);

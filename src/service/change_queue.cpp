@@ -15,7 +15,7 @@ bool changesNoSettings(const SceneChange& change)
 {
   return change.is_diff && change.name.empty() && change.robot_model_name.empty() && change.fixed_frames.empty() &&
          change.state.variables.empty() && change.state.is_diff && !change.matrix && change.link_padding.empty() &&
-         change.link_scale.empty() && change.colors.empty();
+         change.link_scale.empty() && change.colors.empty() && change.solids.empty();
 }
 
 /// Whether two changes can be merged: the objects, or the attached objects, of the second one are then appended to the

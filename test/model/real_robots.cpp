@@ -104,6 +104,11 @@ RealRobot panda()
           {{"moveit_resources_panda_description", folder + "description"}}};
 }
 
+RealRobot g1()
+{
+  return {"G1", chosenOr(GPS_SHARED_DIR) + "/cases/g1/g1_29dof.urdf", "", {}};
+}
+
 std::vector<RealRobot> realRobots()
 {
   std::vector<RealRobot> robots;

@@ -39,6 +39,9 @@ RealRobot ur5Spheres();
 /// Panda with the SRDF of MoveIt's tests, whose virtual joint is floating.
 RealRobot panda();
 
+/// A humanoid, many of whose meshes have open seams.
+RealRobot g1();
+
 /// The robots whose files exist, without the sphere model.
 std::vector<RealRobot> realRobots();
 }  // namespace gpu_planning_scene::core

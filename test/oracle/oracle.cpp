@@ -180,7 +180,7 @@ PreparedShape::PreparedShape(const Shape& shape)
   auto impl = std::make_unique<Impl>();
   if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
   {
-    impl->mesh = std::make_unique<PreparedMesh>(**mesh);
+    impl->mesh = std::make_unique<PreparedMesh>(*solidMeshOf(*mesh));
     impl->box = impl->mesh->nodes()[0].box;
   }
   else if (const auto* half_space = std::get_if<HalfSpace>(&shape))

@@ -232,9 +232,11 @@ TEST(Oracle, ClosedMeshesAreSolids)
 TEST(Oracle, OpenMeshesAndCavitiesAreEmpty)
 {
   auto open = std::make_shared<Mesh>(*std::get<std::shared_ptr<const Mesh>>(boxMesh(2.0)));
-  open->triangles.pop_back();
+  open->triangles.resize(10);  // a box without one of its faces
   expectDistance(std::shared_ptr<const Mesh>(open), boxMesh(1.0), shift(0.0, 0.0, 0.0), 0.5);
-  open->triangles.push_back(open->triangles[0]);  // as many triangles as before, one of them twice
+  // As many triangles as before, two of them twice.
+  open->triangles.push_back(open->triangles[0]);
+  open->triangles.push_back(open->triangles[1]);
   expectDistance(std::shared_ptr<const Mesh>(open), boxMesh(1.0), shift(0.0, 0.0, 0.0), 0.5);
   expectDistance(hollowBox(3.0, 2.0), boxMesh(1.0), shift(0.25, 0.0, 0.0), 0.25);
   expectDistance(hollowBox(3.0, 2.0), Sphere{0.5}, shift(0.25, 0.0, 0.0), 0.25);

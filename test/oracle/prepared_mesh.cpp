@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 
 namespace gpu_planning_scene::core::oracle
@@ -59,6 +58,49 @@ HalfAngle solidAngle(const Vector& a, const Vector& b, const Vector& c)
       length_a * length_b * length_c + dot(a, b) * length_c + dot(b, c) * length_a + dot(c, a) * length_b;
   return {static_cast<double>(numerator), static_cast<double>(denominator)};
 }
+/// The sum of the solid angles of triangles around a point.
+double angleOf(const std::vector<SolidCorners>& triangles, const Vector& point)
+{
+  double angle = 0.0;
+  for (const SolidCorners& corners : triangles)
+  {
+    std::array<Eigen::Vector3d, 3> d;
+    for (int i = 0; i < 3; ++i)
+      d[i] = (Vector(corners[i]) - point).toDouble();
+    const double a = d[0].norm();
+    const double b = d[1].norm();
+    const double c = d[2].norm();
+    HalfAngle half = {d[0].dot(d[1].cross(d[2])),
+                      a * b * c + d[0].dot(d[1]) * c + d[1].dot(d[2]) * a + d[2].dot(d[0]) * b};
+    // Near the triangle both terms cancel. The sign of the numerator then decides between two angles 4 pi apart, so
+    // both terms are computed in quadruple precision.
+    if (std::abs(half.numerator) <= 1e-8 * a * b * c && half.denominator <= 1e-8 * a * b * c)
+      half = solidAngle(Vector(corners[0]) - point, Vector(corners[1]) - point, Vector(corners[2]) - point);
+    angle += 2.0 * std::atan2(half.numerator, half.denominator);
+  }
+  return angle;
+}
+
+/// Whether most of several rays from a point cross an odd number of triangles.
+bool crossesAnOddNumber(const std::vector<SolidCorners>& triangles, const Eigen::Vector3d& point)
+{
+  constexpr int kRays = 9;
+  int odd = 0;
+  for (int ray = 0; ray < kRays && !triangles.empty(); ++ray)
+  {
+    const Eigen::Vector3d along(std::cos(1.7 + 2.3 * ray), std::sin(0.4 + 1.9 * ray), std::cos(0.3 + 1.1 * ray));
+    bool is_odd = false;
+    for (const SolidCorners& t : triangles)
+    {
+      Eigen::Matrix3d columns;
+      columns << t[1] - t[0], t[2] - t[0], -along;
+      const Eigen::Vector3d at = columns.fullPivLu().solve(point - t[0]);
+      is_odd = is_odd != (at.x() >= 0.0 && at.y() >= 0.0 && at.x() + at.y() <= 1.0 && at.z() > 0.0);
+    }
+    odd += is_odd ? 1 : 0;
+  }
+  return 2 * odd > kRays;
+}
 }  // namespace
 
 double leastDistance(const BoundingBox& a, const BoundingBox& b, const Eigen::Isometry3d& b_in_a)
@@ -73,8 +115,9 @@ double leastDistance(const BoundingBox& a, const BoundingBox& b, const Eigen::Is
   return std::max(in_a.cwiseMax(0.0).norm(), in_b.cwiseMax(0.0).norm()) - slack;
 }
 
-PreparedMesh::PreparedMesh(const Mesh& mesh)
+PreparedMesh::PreparedMesh(const SolidMesh& solid)
 {
+  const Mesh& mesh = *solid.mesh;
   std::vector<Eigen::AlignedBox3d> boxes;
   for (const auto& t : mesh.triangles)
   {
@@ -88,7 +131,7 @@ PreparedMesh::PreparedMesh(const Mesh& mesh)
   nodes_.reserve(2 * order.size());
   nodes_.emplace_back();
   build(0, 0, static_cast<std::uint32_t>(order.size()), order, boxes);
-  findComponents(mesh);
+  findComponents(solid);
 }
 
 void PreparedMesh::build(std::uint32_t node, std::uint32_t begin, std::uint32_t end, std::vector<std::uint32_t>& order,
@@ -120,33 +163,15 @@ void PreparedMesh::build(std::uint32_t node, std::uint32_t begin, std::uint32_t 
   build(child + 1, middle, end, order, boxes);
 }
 
-void PreparedMesh::findComponents(const Mesh& mesh)
+void PreparedMesh::findComponents(const SolidMesh& solid)
 {
+  const Mesh& mesh = *solid.mesh;
   const std::vector<std::uint32_t> places = placesOf(mesh.vertices);
   const std::size_t count = mesh.triangles.size();
-  std::vector<std::array<std::uint32_t, 3>> corners(count);
   std::vector<std::vector<std::uint32_t>> triangles_at(mesh.vertices.size());
-  // For each edge, lower position number first: the number of triangles that run along it upwards and downwards.
-  std::map<std::array<std::uint32_t, 2>, std::array<int, 2>> uses;
-  const auto has_area = [&](std::size_t t)
-  { return corners[t][0] != corners[t][1] && corners[t][1] != corners[t][2] && corners[t][2] != corners[t][0]; };
-  const auto edge = [&](std::size_t t, int i) -> std::array<std::uint32_t, 2>
-  {
-    const std::uint32_t p = corners[t][i];
-    const std::uint32_t q = corners[t][(i + 1) % 3];
-    return {std::min(p, q), std::max(p, q)};
-  };
   for (std::size_t t = 0; t < count; ++t)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      corners[t][i] = places[mesh.triangles[t][i]];
-      triangles_at[corners[t][i]].push_back(static_cast<std::uint32_t>(t));
-    }
-    for (int i = 0; has_area(t) && i < 3; ++i)
-      ++uses[edge(t, i)][corners[t][i] < corners[t][(i + 1) % 3] ? 0 : 1];
-  }
-
+    for (const std::uint32_t vertex : mesh.triangles[t])
+      triangles_at[places[vertex]].push_back(static_cast<std::uint32_t>(t));
   std::vector<bool> seen(count, false);
   for (std::size_t start = 0; start < count; ++start)
   {
@@ -156,60 +181,33 @@ void PreparedMesh::findComponents(const Mesh& mesh)
     std::vector<std::uint32_t> component = {static_cast<std::uint32_t>(start)};
     seen[start] = true;
     for (std::size_t next = 0; next < component.size(); ++next)
-    {
-      for (const std::uint32_t place : corners[component[next]])
-      {
-        for (const std::uint32_t t : triangles_at[place])
+      for (const std::uint32_t vertex : mesh.triangles[component[next]])
+        for (const std::uint32_t t : triangles_at[places[vertex]])
         {
           if (!seen[t])
             component.push_back(t);
           seen[t] = true;
         }
-      }
-    }
-    component.erase(std::remove_if(component.begin(), component.end(), [&](std::uint32_t t) { return !has_area(t); }),
-                    component.end());
-    const bool closed =
-        std::all_of(component.begin(), component.end(),
-                    [&](std::uint32_t t)
-                    {
-                      const std::array<int, 2> paired = {1, 1};
-                      return uses[edge(t, 0)] == paired && uses[edge(t, 1)] == paired && uses[edge(t, 2)] == paired;
-                    });
-    for (const std::uint32_t t : component)
-    {
-      if (!closed)
-        break;
-      const auto& vertices = mesh.triangles[t];
-      solid_triangles_.push_back({mesh.vertices[vertices[0]], mesh.vertices[vertices[1]], mesh.vertices[vertices[2]]});
-      for (const Eigen::Vector3d& corner : solid_triangles_.back())
-        solid_box_.extend(corner);
-    }
+  }
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    if (solid.roles[t] == TriangleRole::Surface)
+      continue;
+    const auto& vertices = mesh.triangles[t];
+    std::vector<SolidCorners>& corners =
+        solid.roles[t] == TriangleRole::Winding ? winding_triangles_ : parity_triangles_;
+    corners.push_back({mesh.vertices[vertices[0]], mesh.vertices[vertices[1]], mesh.vertices[vertices[2]]});
+    for (const Eigen::Vector3d& corner : corners.back())
+      solid_box_.extend(corner);
   }
 }
 
 bool PreparedMesh::solidContains(const Vector& point) const
 {
   const Eigen::Vector3d rounded = point.toDouble();
-  if (solid_triangles_.empty() || solid_box_.exteriorDistance(rounded) > kSlack * rounded.norm())
+  if (!hasSolid() || solid_box_.exteriorDistance(rounded) > kSlack * rounded.norm())
     return false;
-  double angle = 0.0;
-  for (const auto& corners : solid_triangles_)
-  {
-    std::array<Eigen::Vector3d, 3> d;
-    for (int i = 0; i < 3; ++i)
-      d[i] = (Vector(corners[i]) - point).toDouble();
-    const double a = d[0].norm();
-    const double b = d[1].norm();
-    const double c = d[2].norm();
-    HalfAngle half = {d[0].dot(d[1].cross(d[2])),
-                      a * b * c + d[0].dot(d[1]) * c + d[1].dot(d[2]) * a + d[2].dot(d[0]) * b};
-    // Near the triangle both terms cancel. The sign of the numerator then decides between two angles 4 pi apart, so
-    // both terms are computed in quadruple precision.
-    if (std::abs(half.numerator) <= 1e-8 * a * b * c && half.denominator <= 1e-8 * a * b * c)
-      half = solidAngle(Vector(corners[0]) - point, Vector(corners[1]) - point, Vector(corners[2]) - point);
-    angle += 2.0 * std::atan2(half.numerator, half.denominator);
-  }
-  return std::abs(angle) > 2.0 * kPi;  // each winding adds 4 pi
+  return std::abs(angleOf(winding_triangles_, point)) > 2.0 * kPi ||  // each winding adds 4 pi
+         crossesAnOddNumber(parity_triangles_, rounded);
 }
 }  // namespace gpu_planning_scene::core::oracle

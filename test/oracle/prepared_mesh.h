@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "gpu_planning_scene/shapes.h"
+#include "gpu_planning_scene/solids.h"
 #include "oracle/triangle.h"
 
 namespace gpu_planning_scene::core::oracle
@@ -23,12 +23,14 @@ struct BoundingBox
 /// double.
 double leastDistance(const BoundingBox& a, const BoundingBox& b, const Eigen::Isometry3d& b_in_a);
 
-/// A mesh with a tree of boxes over its triangles, its connected components, and the solids that closed components
-/// enclose.
+using SolidCorners = std::array<Eigen::Vector3d, 3>;
+
+/// A closed mesh with a tree of boxes over its triangles, its connected components, and the solid that its triangles
+/// bound by their roles.
 class PreparedMesh
 {
  public:
-  explicit PreparedMesh(const Mesh& mesh);
+  explicit PreparedMesh(const SolidMesh& solid);
 
   /// A leaf has one triangle. The root is node 0. The two children of an inner node are `child` and `child + 1`.
   struct Node
@@ -42,21 +44,22 @@ class PreparedMesh
 
   /// One vertex of each connected component.
   const std::vector<Eigen::Vector3d>& componentPoints() const { return component_points_; }
-  bool hasSolid() const { return !solid_triangles_.empty(); }
+  bool hasSolid() const { return !winding_triangles_.empty() || !parity_triangles_.empty(); }
 
-  /// Whether the winding number of the closed components around the point is not 0. A point on the surface may count as
-  /// inside or outside.
+  /// Whether the winding number around the point is not 0, or the number of crossings is odd, see TriangleRole. A point
+  /// on the surface may count as inside or outside.
   bool solidContains(const Vector& point) const;
 
  private:
-  void findComponents(const Mesh& mesh);
+  void findComponents(const SolidMesh& solid);
   void build(std::uint32_t node, std::uint32_t begin, std::uint32_t end, std::vector<std::uint32_t>& order,
              const std::vector<Eigen::AlignedBox3d>& boxes);
 
   std::vector<Triangle> triangles_;
   std::vector<Node> nodes_;
   std::vector<Eigen::Vector3d> component_points_;
-  std::vector<std::array<Eigen::Vector3d, 3>> solid_triangles_;
+  std::vector<SolidCorners> winding_triangles_;
+  std::vector<SolidCorners> parity_triangles_;
   Eigen::AlignedBox3d solid_box_;
 };
 }  // namespace gpu_planning_scene::core::oracle

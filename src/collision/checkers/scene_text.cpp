@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "collision/filter/proofs/joint_chain.h"
+#include "gpu_planning_scene/body_parts.h"
 #include "model/robot_text.h"
 #include "model/text/one_line.h"
 #include "scene/body_link.h"
@@ -140,6 +141,8 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
   if (!report.decided.empty())
     lines.push_back(std::string("states decided on the CPU") +
                     (report.cpu_below ? ", also in measurements of its speed: " : ": ") + decidedText(report.decided));
+  for (const std::string& line : describeOpenParts(scene))
+    lines.push_back(line);
   std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);
   return lines;
 }

@@ -17,6 +17,6 @@ CpuForest::CpuForest(const CollisionProblem& problem, const Forest& forest)
 {
   trees_.reserve(problem.shapes.size());
   for (std::size_t i = 0; i < problem.shapes.size(); ++i)
-    trees_.push_back(makeCpuTree(problem.shapes[i], *problem.tessellations[i].mesh, forest, i));
+    trees_.push_back(makeCpuTree(problem.shapes[i], problem.tessellations[i], forest, i));
 }
 }  // namespace gpu_planning_scene::core

@@ -22,7 +22,7 @@ using Eigen::Matrix3d;
 void copyTree(const Forest& forest, std::size_t number, const Mesh& mesh, CpuTree& tree)
 {
   tree.triangles.reserve(mesh.triangles.size());
-  tree.bounds_solid.reserve(mesh.triangles.size());
+  tree.roles.reserve(tree.mesh ? mesh.triangles.size() : 0);
   const auto add = [&](std::uint32_t from)
   {
     CpuNode& node = tree.nodes.emplace_back();
@@ -51,7 +51,8 @@ void copyTree(const Forest& forest, std::size_t number, const Mesh& mesh, CpuTre
       const std::uint32_t triangle = forest.leaf_triangles[place] - forest.first_triangle[number];
       const auto& corners = mesh.triangles[triangle];
       tree.triangles.push_back({mesh.vertices[corners[0]], mesh.vertices[corners[1]], mesh.vertices[corners[2]]});
-      tree.bounds_solid.push_back(tree.mesh ? tree.components.bounds_solid[triangle] : 0);
+      if (tree.mesh)
+        tree.roles.push_back(tree.solid->roles[triangle]);
     }
   }
 }
@@ -125,7 +126,7 @@ TreeRegistry& treeRegistry()
 }
 }  // namespace
 
-std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Mesh& mesh, const Forest& forest,
+std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Tessellation& tessellation, const Forest& forest,
                                            std::size_t number)
 {
   auto tree = std::make_shared<CpuTree>();
@@ -136,9 +137,9 @@ std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Mesh& mesh,
     const Node& root = forest.nodes[forest.roots[number]];
     tree->center = centerOf(root);
     tree->half = halfOf(root);
-    tree->components = findComponents(mesh);
-    for (const Component& component : tree->components.components)
-      if (component.closed)
+    tree->solid = tessellation.solid;
+    for (const Component& component : tree->solid->components)
+      if (component.solid)
         tree->solid_bounds.extend(component.bounds);
   }
   else
@@ -146,7 +147,7 @@ std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Mesh& mesh,
     tree->center.setZero();
     tree->half = halfExtents(shape);
   }
-  copyTree(forest, number, mesh, *tree);
+  copyTree(forest, number, *tessellation.mesh, *tree);
   fitBoxes(*tree);
   tree->box = tree->mesh ? tree->nodes[0].box : OrientedBox{Matrix3d::Identity(), tree->center, tree->half};
   if (tree->mesh)
@@ -159,7 +160,7 @@ std::shared_ptr<const CpuTree> cpuTreeOf(const Shape& shape, const Tessellation&
   if (std::shared_ptr<const CpuTree> tree = treeRegistry().find(shape))
     return tree;
   std::shared_ptr<const CpuTree> tree =
-      makeCpuTree(shape, *tessellation.mesh, buildBinnedSah(std::vector<Tessellation>{tessellation}), 0);
+      makeCpuTree(shape, tessellation, buildBinnedSah(std::vector<Tessellation>{tessellation}), 0);
   treeRegistry().add(tree);
   return tree;
 }

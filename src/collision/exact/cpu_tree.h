@@ -8,10 +8,10 @@
 
 #include "collision/exact/forest.h"
 #include "collision/exact/wide_tree.h"
-#include "collision/geometry/components.h"
 #include "collision/geometry/oriented_box.h"
 #include "collision/geometry/triangle_pair.h"
 #include "gpu_planning_scene/shapes.h"
+#include "gpu_planning_scene/solids.h"
 
 namespace gpu_planning_scene::core
 {
@@ -40,18 +40,18 @@ struct CpuTree
   bool mesh;
   Eigen::Vector3d center;  ///< centre of an axis-aligned box that contains the exact shape, not only its tessellation
   Eigen::Vector3d half;
-  OrientedBox box;                   ///< oriented box that contains the exact shape
-  MeshComponents components;         ///< connected components, meshes only
-  Eigen::AlignedBox3d solid_bounds;  ///< bounds of all closed components together; empty if there are none
+  OrientedBox box;                         ///< oriented box that contains the exact shape
+  std::shared_ptr<const SolidMesh> solid;  ///< components and roles of the triangles, meshes only
+  Eigen::AlignedBox3d solid_bounds;        ///< bounds of all components with a solid; empty if there are none
 
-  std::vector<CpuNode> nodes;              ///< node 0 is the root; children come after their parents
-  std::vector<Triangle> triangles;         ///< in the order of the leaves; a leaf's `first` and `count` index them
-  WideTree wide;                           ///< the same tree for tests of eight boxes at a time; meshes only
-  std::vector<std::uint8_t> bounds_solid;  ///< one per triangle: 1 if it belongs to a closed component
+  std::vector<CpuNode> nodes;       ///< node 0 is the root; children come after their parents
+  std::vector<Triangle> triangles;  ///< in the order of the leaves; a leaf's `first` and `count` index them
+  WideTree wide;                    ///< the same tree for tests of eight boxes at a time; meshes only
+  std::vector<TriangleRole> roles;  ///< one per triangle; meshes only
 };
 
-/// The tree of a shape, over the triangles of `mesh`: tree `number` of `forest`, which must be valid for them.
-std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Mesh& mesh, const Forest& forest,
+/// The tree of a shape, over its triangles: tree `number` of `forest`, which must be valid for them.
+std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Tessellation& tessellation, const Forest& forest,
                                            std::size_t number);
 
 /// The tree of a shape. All checkers of the process share trees: if the tree of an equal shape is in use, the function

@@ -7,8 +7,9 @@
 #include "collision/geometry/exact_orientation.h"
 
 // Sums the signed crossings of a segment from the point to a point outside of the mesh. If the segment meets an edge, a
-// vertex or a coplanar triangle, another segment is tried. For closed components, this sum is the winding number of
-// Jacobson, Kavan and Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding Numbers", 2013.
+// vertex or a coplanar triangle, another segment is tried. For triangles without a signed boundary, this sum is the
+// winding number of Jacobson, Kavan and Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding
+// Numbers", 2013.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -74,12 +75,14 @@ std::optional<int> crossing(const Vector3d& start, const Vector3d& end, const Tr
   return start_side;
 }
 
-/// The sum of the crossings with closed components; empty if a crossing is degenerate.
-std::optional<int> sumOfCrossings(const CpuTree& tree, const Vector3d& start, const Vector3d& end,
-                                  std::vector<std::uint32_t>& stack)
+/// Whether the crossings of the segment, which ends outside the mesh, put its start inside the solid; empty if a
+/// crossing is degenerate.
+std::optional<bool> startsInside(const CpuTree& tree, const Vector3d& start, const Vector3d& end,
+                                 std::vector<std::uint32_t>& stack)
 {
   const SegmentBoxTest test(start, end);
-  int sum = 0;
+  int winding = 0;
+  bool is_odd = false;
   stack.assign(1, 0);
   while (!stack.empty())
   {
@@ -95,15 +98,18 @@ std::optional<int> sumOfCrossings(const CpuTree& tree, const Vector3d& start, co
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
     {
-      if (tree.bounds_solid[i] == 0)
+      if (tree.roles[i] == TriangleRole::Surface)
         continue;
       const std::optional<int> found = crossing(start, end, tree.triangles[i]);
       if (!found)
         return {};
-      sum += *found;
+      if (tree.roles[i] == TriangleRole::Winding)
+        winding += *found;
+      else
+        is_odd = is_odd != (*found != 0);
     }
   }
-  return sum;
+  return winding != 0 || is_odd;
 }
 
 /// A point outside the bounds, near the face of the bounds that is nearest to `point`. Each attempt gives another
@@ -139,9 +145,9 @@ bool isInsideSolid(const CpuTree& tree, const Vector3d& point, std::vector<std::
   constexpr int kMaxAttempts = 1000;
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt)
   {
-    const std::optional<int> sum = sumOfCrossings(tree, point, pointOutside(bounds, point, attempt), stack);
-    if (sum)
-      return *sum != 0;
+    const std::optional<bool> inside = startsInside(tree, point, pointOutside(bounds, point, attempt), stack);
+    if (inside)
+      return *inside;
   }
   throw std::logic_error("the winding number was requested at a point on the surface of the mesh");
 }

@@ -382,7 +382,7 @@ void GpuPairChecker::testContainment(bool solids)
   (solids ? lists_.solid_entries : lists_.mesh_entries).bindTexture(UNIT_ENTRIES);
   scene_.components().bindStorage(BINDING_C);
   scene_.leafOrder().bindStorage(BINDING_A);
-  scene_.solidTriangles().bindStorage(BINDING_B);
+  scene_.triangleRoles().bindStorage(BINDING_B);
   inside_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
 }
 }  // namespace gpu_planning_scene::core

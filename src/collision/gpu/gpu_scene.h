@@ -30,7 +30,7 @@ class GpuScene
   void bind() const;
   const Buffer& components() const { return trees_.components(); }
   const Buffer& leafOrder() const { return trees_.leafOrder(); }
-  const Buffer& solidTriangles() const { return trees_.solidTriangles(); }
+  const Buffer& triangleRoles() const { return trees_.triangleRoles(); }
   const Buffer& halfSpaces() const { return half_spaces_; }
   const Buffer& halfSpacePairs() const { return half_space_pairs_; }
 
@@ -43,7 +43,7 @@ class GpuScene
   float tolerance() const { return tolerance_; }
   /// Whether some pairs have a required distance.
   bool isPadded() const { return padded_; }
-  /// Whether a mesh has closed components.
+  /// Whether a part of a mesh bounds a solid.
   bool hasMeshSolids() const { return has_mesh_solids_; }
   /// Upper bound of the number of levels of a tree.
   std::uint32_t depthBound() const { return trees_.depth(); }

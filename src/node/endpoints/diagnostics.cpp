@@ -1,9 +1,12 @@
 #include "node/endpoints/diagnostics.h"
 
+#include <algorithm>
+
 #include <ros/console.h>
 #include <ros/this_node.h>
 
 #include "collision/checkers/resilient_checker.h"
+#include "gpu_planning_scene/body_parts.h"
 #include "model/text/one_line.h"
 #include "service/memory_guard.h"
 
@@ -12,6 +15,14 @@ namespace gpu_planning_scene::core
 namespace
 {
 using diagnostic_msgs::DiagnosticStatus;
+
+/// The number of parts of meshes that bound no solid.
+std::size_t surfaceParts(const PlanningScene& scene)
+{
+  const std::vector<BodyPart> parts = openParts(scene);
+  return static_cast<std::size_t>(std::count_if(
+      parts.begin(), parts.end(), [](const BodyPart& entry) { return entry.part.kind == PartKind::Surface; }));
+}
 
 void add(DiagnosticStatus& status, const std::string& key, const std::string& value)
 {
@@ -135,6 +146,7 @@ DiagnosticStatus Diagnostics::status(const SceneStore& store, const CheckServer&
   add(status, "scene_revision", std::to_string(scene->revision));
   add(status, "objects", std::to_string(scene->objects.size()));
   add(status, "attached_objects", std::to_string(scene->attached.size()));
+  add(status, "surface_parts", std::to_string(surfaceParts(*scene)));
   add(status, "memory", std::to_string(residentMemory()));
   return status;
 }

@@ -84,7 +84,11 @@ void ShapeMarkers::addShape(const Shape& shape, const Eigen::Isometry3d& pose)
   else if (const auto* plane = std::get_if<HalfSpace>(&shape))
     addPlane(*plane, pose);
   else if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&shape))
-    addMesh(**mesh, pose);
+  {
+    const std::shared_ptr<const SolidMesh> solid = solidMeshOf(*mesh);
+    addMesh(*solid->mesh, pose);
+    colorOpenTriangles(*solid);
+  }
   else
     addMesh(*tessellate(shape).mesh, pose);
 }
@@ -124,6 +128,20 @@ void ShapeMarkers::addTriangles(const Mesh& mesh, const Eigen::Isometry3d& pose)
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t corner : triangle)
       marker.points.push_back(pointOf(mesh.vertices[corner]));
+}
+
+/// Gives the triangles of the last marker that bound no solid another colour.
+void ShapeMarkers::colorOpenTriangles(const SolidMesh& solid)
+{
+  Marker& marker = array_.markers.back();
+  if (marker.type != Marker::TRIANGLE_LIST || solid.parts.count(PartKind::Surface) == 0)
+    return;
+  std_msgs::ColorRGBA open = marker.color;
+  open.r = 0.6F;
+  open.g = 0.35F;
+  open.b = 0.7F;
+  for (std::size_t i = 0; i < solid.mesh->triangles.size(); ++i)
+    marker.colors.insert(marker.colors.end(), 3, solid.isOpen(i) ? open : marker.color);
 }
 
 /// Draws a half-space as a thin plate below its plane. The plate is as large as the surroundings.

@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "gpu_planning_scene/planning_scene.h"
+#include "gpu_planning_scene/solids.h"
 #include "render/drawing.h"
 
 namespace gpu_planning_scene::core
@@ -53,6 +54,7 @@ class ShapeMarkers
   void addToList(int type, const Eigen::Vector3d& size, const Eigen::Isometry3d& pose);
   void addMesh(const Mesh& mesh, const Eigen::Isometry3d& pose);
   void addTriangles(const Mesh& mesh, const Eigen::Isometry3d& pose);
+  void colorOpenTriangles(const SolidMesh& solid);
   void addPlane(const HalfSpace& plane, const Eigen::Isometry3d& pose);
 
   const std_msgs::Header header_;

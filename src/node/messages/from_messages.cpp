@@ -198,6 +198,22 @@ AttachedChange attachedChangeFrom(const AttachedCollisionObject& message)
   return attachedChangeFrom(message, meshes);
 }
 
+SolidRule solidRuleFrom(const BodySolid& message)
+{
+  switch (message.solid)
+  {
+    case BodySolid::AUTO:
+      return SolidRule::Auto;
+    case BodySolid::SURFACE:
+      return SolidRule::Surface;
+    case BodySolid::FILLED:
+      return SolidRule::Filled;
+    default:
+      throw Error("solids: the rule of '" + message.id + "' is " + std::to_string(static_cast<int>(message.solid)) +
+                  "; known are AUTO (0), SURFACE (1) and FILLED (2)");
+  }
+}
+
 SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& robot, const SceneLimits& limits,
                        std::vector<std::string>* warnings)
 {
@@ -227,6 +243,8 @@ SceneChange changeFrom(const PlanningSceneMessage& message, const RobotModel& ro
     insertOnce(change.link_scale, scale.link_name, scale.scale, "the scale");
   for (const ObjectColor& color : message.object_colors)
     insertOnce(change.colors, color.id, Color{color.color.r, color.color.g, color.color.b, color.color.a}, "the color");
+  for (const BodySolid& solid : message.solids)
+    insertOnce(change.solids, solid.id, solidRuleFrom(solid), "the solid");
   for (const CollisionObject& object : message.world.collision_objects)
     change.objects.push_back(objectChangeFrom(object, meshes));
   if (std::optional<ObjectChange> octomap = octomapChangeFrom(message.world.octomap, limits.voxels))

@@ -20,6 +20,13 @@ geometry_msgs::Transform transformOf(const Eigen::Isometry3d& pose)
   return message;
 }
 
+std::uint8_t messageOf(SolidRule rule)
+{
+  return rule == SolidRule::Auto      ? BodySolid::AUTO
+         : rule == SolidRule::Surface ? BodySolid::SURFACE
+                                      : BodySolid::FILLED;
+}
+
 /// Adds a shape and its pose to the lists of its kind in the message.
 struct AddShape
 {
@@ -194,6 +201,13 @@ AllowedCollisionMatrixMessage messageOf(const AllowedCollisionMatrix& matrix, co
   return message;
 }
 
+bool isAttached(const PlanningScene& scene, const std::string& id)
+{
+  return std::any_of(
+      scene.attached.begin(), scene.attached.end(),
+      [&id](const AttachedObject& attached) { return attached.object.id == id; });
+}
+
 /// The change that makes the requested components of the scene, without the values of variables.
 SceneChange changeOf(const PlanningScene& scene, std::uint32_t components)
 {
@@ -229,6 +243,10 @@ SceneChange changeOf(const PlanningScene& scene, std::uint32_t components)
       change.link_padding[link.name] = padding;
       change.link_scale[link.name] = scale;
     }
+  for (const auto& [id, rule] : full.solids)
+    if (wanted(robot.linkIndex(id) >= 0 || !isAttached(scene, id) ? Components::WORLD_OBJECT_GEOMETRY
+                                                                  : Components::ROBOT_STATE_ATTACHED_OBJECTS))
+      change.solids[id] = rule;
   for (const ObjectChange& object : full.objects)
     if (wanted(object.id == kOctomapId ? Components::OCTOMAP : Components::WORLD_OBJECT_GEOMETRY))
       change.objects.push_back(object);
@@ -282,6 +300,12 @@ PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robo
     message.object_colors.back().color.g = color.g;
     message.object_colors.back().color.b = color.b;
     message.object_colors.back().color.a = color.a;
+  }
+  for (const auto& [id, rule] : change.solids)
+  {
+    message.solids.emplace_back();
+    message.solids.back().id = id;
+    message.solids.back().solid = messageOf(rule);
   }
   for (const ObjectChange& object : change.objects)
     if (object.id == kOctomapId)

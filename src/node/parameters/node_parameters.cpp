@@ -107,6 +107,25 @@ std::string limitsFolder(const ros::NodeHandle& node, const ros::NodeHandle& own
   return found + "_planning";
 }
 
+/// ~solids: {LINK: auto | surface | filled}.
+std::map<std::string, SolidRule> solidsFromParameters(const ros::NodeHandle& own)
+{
+  std::map<std::string, SolidRule> solids;
+  XmlRpcValue values;
+  if (!own.getParam("solids", values))
+    return solids;
+  const std::string where = "parameter " + own.resolveName("solids") + ": ";
+  if (values.getType() != XmlRpcValue::TypeStruct)
+    throw Error(where + "it must be a map {LINK: RULE}");
+  for (auto& [link, rule] : values)
+  {
+    if (rule.getType() != XmlRpcValue::TypeString)
+      throw Error(where + "the rule of link '" + link + "' must be auto, surface or filled");
+    solids[link] = solidRuleFrom(static_cast<std::string&>(rule));
+  }
+  return solids;
+}
+
 /// The name of a robot description in messages: the file or command that the launch file names, or the parameter.
 std::string sourceOf(const ros::NodeHandle& own, const std::string& source_parameter, const std::string& parameter)
 {
@@ -137,7 +156,8 @@ PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHa
     throw Error("parameter " + urdf_parameter +
                 " is not set; load the robot's URDF there, or give urdf:=FILE to the launch file");
   options.position_limits = positionLimitsFromParameters(node, limitsFolder(node, own, urdf_parameter), warnings);
-  const auto robot = RobotModel::fromXml(urdf, textParameter(node, srdf_parameter, ""), options, warnings);
+  const auto robot = RobotModel::fromXml(urdf, textParameter(node, srdf_parameter, ""), options, warnings)
+                         ->withSolids(solidsFromParameters(own));
   defaults = defaultsFromParameters(node, urdf_parameter, *robot, warnings);
 
   const std::string scene_file = textParameter(own, "scene", "");

@@ -19,7 +19,7 @@ namespace gpu_planning_scene::core
 
 /// Makes the scene from the parameters robot_description, robot_description_semantic (both are searched for from the
 /// node's namespace upwards and can be remapped), robot_description_planning/joint_limits (with ~monitor, that of the
-/// move_group), ~scene, ~packages, ~urdf_folder, ~unbounded_translation and ~mesh/.
+/// move_group), ~scene, ~packages, ~solids, ~urdf_folder, ~unbounded_translation and ~mesh/.
 /// `defaults` gets the values of robot_description_planning/, which apply to links and objects that the scene file does
 /// not name.
 PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneDefaults& defaults,

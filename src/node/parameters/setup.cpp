@@ -37,6 +37,7 @@ std::uint64_t setupFromParameters(const ros::NodeHandle& node, const ros::NodeHa
     for (const PlacedShape& placed : link.shapes)
       if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&placed.shape))
       {
+        hash.add(toString((*mesh)->solid));
         hash.add((*mesh)->vertices.data(), (*mesh)->vertices.size() * sizeof(Eigen::Vector3d));
         hash.add((*mesh)->triangles.data(), (*mesh)->triangles.size() * sizeof((*mesh)->triangles[0]));
       }

@@ -23,7 +23,7 @@ bool takesMemory(const SceneChange& change)
   const auto brings = [](const ObjectChange& object) { return !object.shapes.empty() || !object.subframes.empty(); };
   const std::vector<AttachedChange>& attached = change.state.attached;
   return !change.fixed_frames.empty() || change.matrix || !change.link_scale.empty() || !change.colors.empty() ||
-         std::any_of(change.objects.begin(), change.objects.end(), brings) ||
+         !change.solids.empty() || std::any_of(change.objects.begin(), change.objects.end(), brings) ||
          std::any_of(attached.begin(), attached.end(),
                      [&brings](const AttachedChange& candidate) { return brings(candidate.object); });
 }

@@ -5,6 +5,7 @@
 
 #include "gpu_planning_scene/octomap.h"
 #include "gpu_planning_scene/scene_change.h"
+#include "scene/solid_rules.h"
 
 // The change that leads from one scene to another.
 namespace gpu_planning_scene::core
@@ -20,7 +21,7 @@ struct SameShape
   bool operator()(const HalfSpace& a, const HalfSpace& b) const { return a.normal == b.normal && a.offset == b.offset; }
   bool operator()(const std::shared_ptr<const Mesh>& a, const std::shared_ptr<const Mesh>& b) const
   {
-    return a == b || (a->triangles == b->triangles && a->vertices == b->vertices);
+    return a == b || (a->triangles == b->triangles && a->vertices == b->vertices && a->solid == b->solid);
   }
   template <class A, class B>
   bool operator()(const A&, const B&) const
@@ -220,6 +221,21 @@ void compareObjects(const PlanningScene& from, const PlanningScene& to, SceneCha
     change.objects.push_back(can_move ? move(*old, object) : addition(object));
   }
 }
+/// The rules of links that differ, and of all objects with an unusual rule: added objects would have the usual one.
+std::map<std::string, SolidRule> changedSolids(const PlanningScene& from, const PlanningScene& to)
+{
+  std::map<std::string, SolidRule> changed;
+  for (const auto& [id, rule] : solidRulesOf(to))
+    if (to.robot->linkIndex(id) < 0)
+      changed[id] = rule;
+  for (std::size_t i = 0; i < to.robot->links().size(); ++i)
+  {
+    const auto rule = solidRuleOf(to.robot->links()[i].shapes);
+    if (rule && rule != solidRuleOf(from.robot->links()[i].shapes))
+      changed[to.robot->links()[i].name] = *rule;
+  }
+  return changed;
+}
 }  // namespace
 
 SceneChange fullSceneOf(const PlanningScene& scene)
@@ -241,6 +257,7 @@ SceneChange fullSceneOf(const PlanningScene& scene)
   change.colors = scene.colors;
   for (const WorldObject& object : scene.objects)
     change.objects.push_back(addition(object));
+  change.solids = solidRulesOf(scene);
   return change;
 }
 
@@ -267,6 +284,7 @@ SceneChange diffOf(const PlanningScene& from, const PlanningScene& to)
       change.colors[id] = color;
   compareCarried(from, to, change);
   compareObjects(from, to, change);
+  change.solids = changedSolids(from, to);
   // Detaching an object needs the state of the robot. A full scene does not.
   const bool puts_back =
       std::any_of(change.state.attached.begin(), change.state.attached.end(),

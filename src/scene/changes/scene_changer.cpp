@@ -1,4 +1,5 @@
 #include "scene/changes/scene_changer.h"
+#include "scene/solid_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,6 +59,7 @@ ChangedScene SceneChanger::make(const SceneChange& change)
   changeColors(change);
   for (const ObjectChange& object : change.objects)
     changeObject(object);
+  changeSolids(change);
   objects_.close();
   attached_.close();
   count_.requireTriangles(result_.scene);
@@ -182,7 +184,10 @@ bool SceneChanger::isPlanningFrame(const std::string& name) const
 
 void appendShapes(const ObjectChange& change, WorldObject& object)
 {
+  const std::optional<SolidRule> rule = solidRuleOf(object.shapes);
   object.shapes.insert(object.shapes.end(), change.shapes.begin(), change.shapes.end());
+  if (rule)
+    setSolidRule(object.shapes, *rule);
   orderShapes(object.shapes);
   for (const auto& [name, pose] : change.subframes)
     object.subframes[name] = pose;

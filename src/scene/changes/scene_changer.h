@@ -41,6 +41,9 @@ class SceneChanger
   void changeScale(const SceneChange& change);
   void changeColors(const SceneChange& change);
 
+  // change_solids.cpp
+  void changeSolids(const SceneChange& change);
+
   // change_state.cpp
   void changeState(const StateChange& change, bool is_full_scene);
   void setVariables(const std::map<std::string, double>& variables);

@@ -1,10 +1,11 @@
 #include <algorithm>
 
+#include "gpu_planning_scene/error.h"
 #include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 #include "scene/missing_link.h"
 
-// Padding and scale of links, and colours of bodies.
+// Padding, scale and solids of links, and colours of bodies.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -54,6 +55,36 @@ std::vector<double> readLinkPadding(const YamlValue& scene, const SceneReader& r
 std::vector<double> readLinkScale(const YamlValue& scene, const SceneReader& reader)
 {
   return readLinkValues(scene, reader, "link_scale", SceneMap::LinkScale, "scale", reader.defaults.link_scale, 1.0);
+}
+
+SolidRule readSolidRule(const YamlValue& value)
+{
+  try
+  {
+    return solidRuleFrom(value.text());
+  }
+  catch (const Error& error)
+  {
+    value.fail(error.what());
+  }
+}
+
+std::map<std::string, SolidRule> readLinkSolids(const YamlValue& scene, const SceneReader& reader)
+{
+  std::map<std::string, SolidRule> rules;
+  const YamlValue* list = scene.find("link_solid");
+  if (!list)
+    return rules;
+  for (const YamlValue& item : list->items())
+  {
+    checkKeys(item, SceneMap::LinkSolid, reader.warnings);
+    const YamlValue& name = item.at("link_name");
+    if (reader.robot.linkIndex(name.text()) < 0)
+      name.fail("the robot " + noLinkText(reader.robot, name.text()));
+    if (!rules.emplace(name.text(), readSolidRule(item.at("solid"))).second)
+      name.fail("the solid of link '" + name.text() + "' is given twice");
+  }
+  return rules;
 }
 
 std::map<std::string, Color> readColors(const YamlValue& scene, const SceneReader& reader)

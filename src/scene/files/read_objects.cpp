@@ -6,6 +6,7 @@
 #include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 #include "scene/missing_link.h"
+#include "scene/solid_rules.h"
 #include "scene/validate_scene.h"
 
 namespace gpu_planning_scene::core
@@ -73,6 +74,12 @@ WorldObject readObject(const YamlValue& value, SceneReader& reader)
     const std::string unknown = unknownKey(value, SceneMap::Object);
     value.fail("object '" + object.id + "' has no shapes; give it primitives, meshes or planes" +
                (unknown.empty() ? "" : "; unknown key '" + unknown + "'"));
+  }
+  if (const YamlValue* solid = value.find("solid"))
+  {
+    if (!solidRuleOf(object.shapes))
+      solid->fail("object '" + object.id + "' has no mesh; only meshes have a rule for their solid");
+    setSolidRule(object.shapes, readSolidRule(*solid));
   }
   if (const YamlValue* type = value.find("type"))
     object.type = readObjectType(*type, reader);

@@ -50,6 +50,7 @@ PlanningScene sceneFromYaml(const YamlValue& file, const std::string& folder, st
   }
   scene.link_padding = readLinkPadding(file, reader);
   scene.setLinkScale(readLinkScale(file, reader));
+  scene.robot = scene.robot->withSolids(readLinkSolids(file, reader));
   scene.colors = readColors(file, reader);
   scene.fixed_frames = reader.fixed_frames;
   scene.fixed_frames.erase(robot->planningFrame());

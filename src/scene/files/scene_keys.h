@@ -32,6 +32,7 @@ enum class SceneMap
   MatrixRow,
   LinkPadding,
   LinkScale,
+  LinkSolid,
   ObjectColor,
   Color,
   Header,

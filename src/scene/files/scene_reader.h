@@ -77,6 +77,12 @@ JointTrajectory readTrajectory(const YamlValue& value, const SceneReader& reader
 std::vector<double> readLinkPadding(const YamlValue& scene, const SceneReader& reader);
 std::vector<double> readLinkScale(const YamlValue& scene, const SceneReader& reader);
 
+/// auto, surface or filled.
+SolidRule readSolidRule(const YamlValue& value);
+
+/// `link_solid`: rules by link.
+std::map<std::string, SolidRule> readLinkSolids(const YamlValue& scene, const SceneReader& reader);
+
 /// `object_colors`.
 std::map<std::string, Color> readColors(const YamlValue& scene, const SceneReader& reader);
 }  // namespace gpu_planning_scene::core

@@ -38,10 +38,11 @@ MeshPointer inverted(const MeshPointer& mesh)
       });
 }
 
+/// Without the last face of a box. A hole of that size is not filled.
 MeshPointer opened(const MeshPointer& mesh)
 {
   return changed(
-      mesh, [](Mesh& copy) { copy.triangles.pop_back(); });
+      mesh, [](Mesh& copy) { copy.triangles.resize(copy.triangles.size() - 2); });
 }
 
 MeshPointer moved(const MeshPointer& mesh, const Vector3d& shift)

@@ -43,12 +43,11 @@ std::vector<T> thinned(const std::vector<T>& all, std::size_t count)
   return kept;
 }
 
-/// Points inside the shape. Points of the surface too if the shape has open components or few points inside.
+/// Points inside the shape. Points of the surface too if the shape has surfaces that bound no solid, or few points
+/// inside.
 std::vector<SolidCell> candidatesOf(const CpuTree& tree, const ShapeSamples& samples)
 {
-  const std::vector<Component>& components = tree.components.components;
-  const bool is_closed =
-      hasSolid(tree) && std::all_of(components.begin(), components.end(), [](const Component& c) { return c.closed; });
+  const bool is_closed = hasSolid(tree) && (!tree.mesh || tree.solid->isAllSolid());
   std::vector<SolidCell> candidates = thinned(samples.inside, kCandidates);
   if (!is_closed || candidates.size() < kSurfaceCandidates)
     for (const Vector3d& point : thinned(samples.points, kSurfaceCandidates))
@@ -260,7 +259,7 @@ BallCover coverOf(const CpuTree& tree, const ShapeSamples& samples, double sagit
       cover.levels[level].push_back(certified(tree, samples, fit, sagitta));
     }
   }
-  if (hasSolid(tree) && tree.components.components.size() <= 1)  // a primitive has no components
+  if (hasSolid(tree) && (!tree.mesh || tree.solid->components.size() == 1))
     for (const auto& level : cover.levels)
       for (const CoverBall& ball : level)
         cover.thickness = std::max(cover.thickness, ball.inner);

@@ -57,6 +57,7 @@ ShapeHash shapeHash(const Shape& shape, double sagitta)
     const Mesh& mesh = *std::get<std::shared_ptr<const Mesh>>(shape);
     append(bytes, static_cast<std::uint64_t>(mesh.vertices.size()));
     append(bytes, static_cast<std::uint64_t>(mesh.triangles.size()));
+    append(bytes, static_cast<std::uint64_t>(mesh.solid));
     static_assert(sizeof(Vector3d) == 3 * sizeof(double) && sizeof(mesh.triangles[0]) == 12, "no padding");
     sha1.process_bytes(mesh.vertices.data(), mesh.vertices.size() * sizeof(Vector3d));
     sha1.process_bytes(mesh.triangles.data(), mesh.triangles.size() * sizeof(mesh.triangles[0]));

@@ -67,7 +67,7 @@ struct ShapeSamples
 /// the surface. Throws ProofsStopped.
 ShapeSamples samplesOf(const CpuTree& tree, const Stopped& stopped = {});
 
-/// Whether the shape has a solid: it is a primitive, or a mesh with a closed component.
+/// Whether the shape has a solid: it is a primitive, or a mesh with a part that bounds a solid.
 bool hasSolid(const CpuTree& tree);
 
 /// Whether a point is in the shape's solid. Points on the surface may count as outside.

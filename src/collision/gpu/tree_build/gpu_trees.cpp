@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <unordered_map>
 
-#include "collision/geometry/components.h"
 #include "gpu_planning_scene/error.h"
 #include "shader_constants.h"
 
@@ -19,6 +18,11 @@ constexpr std::size_t kFewTriangles = 65536;
 /// Meshes are built together up to this number of triangles, so that a dispatch takes about 50 ms on llvmpipe and the
 /// work space stays small. A larger mesh is built alone.
 constexpr std::size_t kTrianglesAtOnce = std::size_t{1} << 18U;
+
+static_assert(static_cast<unsigned>(TriangleRole::Surface) == ROLE_SURFACE &&
+                  static_cast<unsigned>(TriangleRole::Winding) == ROLE_WINDING &&
+                  static_cast<unsigned>(TriangleRole::Parity) == ROLE_PARITY && ROLES_PER_WORD * ROLE_BITS == 32,
+              "the shaders read roles");
 }  // namespace
 
 void GpuTrees::setShapes(const std::vector<Tessellation>& shapes)
@@ -80,6 +84,8 @@ std::vector<GpuTrees::Key> GpuTrees::claim(const std::vector<Key>& keys, const s
     if (is_new)
     {
       entry->second.mesh = shapes[i].mesh;
+      // The triangles of a primitive are a closed mesh.
+      entry->second.solid = shapes[i].solid ? shapes[i].solid : solidMeshOf(shapes[i].mesh);
       missing.push_back(keys[i]);
     }
   }
@@ -95,7 +101,7 @@ void GpuTrees::clear()
   chosen_.clear();
   builds_.clear();
   component_records_.clear();
-  solid_bits_.clear();
+  role_bits_.clear();
   node_count_ = primitive_count_ = reserved_first_ = 0;
   reserved_ = 0;
   depth_ = 1;
@@ -117,7 +123,7 @@ void GpuTrees::build(const std::vector<Key>& keys)
 
   std::uint32_t root = region.first_node;
   std::uint32_t triangle = region.first_primitive;
-  solid_bits_.resize((region.first_primitive + region.primitive_count) / 32 + 1, 0);
+  role_bits_.resize((region.first_primitive + region.primitive_count) / ROLES_PER_WORD + 1, 0);
   for (const Key& key : keys)
   {
     Entry& entry = entries_.at(key);
@@ -129,8 +135,8 @@ void GpuTrees::build(const std::vector<Key>& keys)
   }
   components_.reserve(component_records_.size() * sizeof(component_records_.front()));
   components_.write(component_records_);
-  solid_triangles_.reserve(solid_bits_.size() * sizeof(std::uint32_t));
-  solid_triangles_.write(solid_bits_);
+  triangle_roles_.reserve(role_bits_.size() * sizeof(std::uint32_t));
+  triangle_roles_.write(role_bits_);
 
   builds_.push_back(region);
   node_count_ += region.node_count;
@@ -158,27 +164,26 @@ BuiltTrees GpuTrees::read(const ForestRegion& region) const
 
 void GpuTrees::addComponents(Entry& entry)
 {
-  const Mesh& mesh = *entry.mesh;
-  const MeshComponents parts = findComponents(mesh);
-  entry.tree.has_solid = parts.hasSolid();
+  const SolidMesh& solid = *entry.solid;
+  entry.tree.has_solid = solid.hasSolid();
   entry.tree.first_component = static_cast<std::uint32_t>(component_records_.size());
-  for (const Component& part : parts.components)
+  for (const Component& part : solid.components)
     entry.tree.bounds.extend(part.bounds);
-  if (parts.components.size() <= MAX_COMPONENTS)
+  if (solid.components.size() <= MAX_COMPONENTS)
   {
-    entry.tree.component_count = static_cast<std::uint32_t>(parts.components.size());
-    for (const Component& part : parts.components)
+    entry.tree.component_count = static_cast<std::uint32_t>(solid.components.size());
+    for (const Component& part : solid.components)
     {
       const Eigen::Vector3f point = part.point.cast<float>();
       const auto size = static_cast<float>((1.0 - 1e-6) * part.bounds.sizes().maxCoeff());
       component_records_.push_back({point.x(), point.y(), point.z(), size});
     }
   }
-  for (std::size_t i = 0; i < parts.bounds_solid.size(); ++i)
+  for (std::size_t i = 0; i < solid.roles.size(); ++i)
   {
     const std::size_t number = entry.first_triangle + i;
-    if (parts.bounds_solid[i])
-      solid_bits_[number / 32] |= 1U << (number % 32);
+    role_bits_[number / ROLES_PER_WORD] |= static_cast<std::uint32_t>(solid.roles[i])
+                                           << (ROLE_BITS * (number % ROLES_PER_WORD));
   }
 }
 

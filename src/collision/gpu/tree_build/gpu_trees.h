@@ -14,6 +14,7 @@
 #include "collision/gpu/tree_build/gpu_forest.h"
 #include "collision/gpu/tree_build/gpu_oriented_boxes.h"
 #include "gpu/buffer.h"
+#include "gpu_planning_scene/solids.h"
 
 namespace gpu_planning_scene::core
 {
@@ -28,7 +29,7 @@ class GpuTrees
     std::uint32_t root = 0;             ///< node
     std::uint32_t first_component = 0;  ///< see shaders/problem/components.glsl
     std::uint32_t component_count = 0;  ///< 0: too many
-    bool has_solid = false;             ///< at least one component is closed
+    bool has_solid = false;             ///< a part of the mesh bounds a solid
     Eigen::AlignedBox3d bounds;         ///< bounds of the triangles, in the shape's frame
   };
 
@@ -51,7 +52,7 @@ class GpuTrees
   const TexelBuffer& triangles() const { return triangles_; }
   const Buffer& leafOrder() const { return leaf_order_; }  ///< triangles are numbered across all trees
   const Buffer& components() const { return components_; }
-  const Buffer& solidTriangles() const { return solid_triangles_; }  ///< bits by triangle number
+  const Buffer& triangleRoles() const { return triangle_roles_; }  ///< two bits by triangle number
 
   /// Reads the trees with the given numbers back from the GPU, in the form for the CPU.
   Forest readForest(const std::vector<std::size_t>& numbers) const;
@@ -62,6 +63,7 @@ class GpuTrees
   struct Entry
   {
     std::shared_ptr<const Mesh> mesh;  // keeps the mesh alive, so that no other mesh gets its address
+    std::shared_ptr<const SolidMesh> solid;
     Tree tree;
     std::size_t build = 0;             // index into builds_
     std::uint32_t first_triangle = 0;  // number of its first triangle
@@ -78,13 +80,13 @@ class GpuTrees
   GpuForestBuilder builder_;
   GpuOrientedBoxes oriented_boxes_;
   TexelBuffer nodes_, oriented_nodes_, triangles_;
-  Buffer leaf_order_, components_, solid_triangles_;
+  Buffer leaf_order_, components_, triangle_roles_;
   std::map<Key, Entry> entries_;
   std::vector<Key> keys_;             // keys of the current shapes
   std::vector<const Entry*> chosen_;  // entries of the current shapes
   std::vector<ForestRegion> builds_;
   std::vector<std::array<float, 4>> component_records_;
-  std::vector<std::uint32_t> solid_bits_;
+  std::vector<std::uint32_t> role_bits_;
   std::uint32_t node_count_ = 0;       // nodes in use
   std::uint32_t primitive_count_ = 0;  // primitives in use
   std::uint32_t reserved_first_ = 0;   // place reserved by placeNodes

@@ -1,8 +1,7 @@
-// Connected components of meshes, and their use: containment of shapes in solids.
+// A component of a mesh inside a primitive or a mesh is a collision, whichever component it is.
 
 #include <gtest/gtest.h>
 
-#include "collision/geometry/components.h"
 #include "gpu_planning_scene/mesh_pair_checker.h"
 
 namespace gpu_planning_scene::core
@@ -27,53 +26,6 @@ std::shared_ptr<const Mesh> twoBalls()
   append(*mesh, *ball, Eigen::Vector3d::Zero());
   append(*mesh, *ball, {0.3, 0.0, 0.0});
   return mesh;
-}
-
-TEST(Components, AreOnePerPartWhateverVerticesAreShared)
-{
-  // Every triangle has separate vertices, as in an STL file.
-  const auto balls = twoBalls();
-  Mesh soup;
-  for (const auto& triangle : balls->triangles)
-  {
-    const auto first = static_cast<std::uint32_t>(soup.vertices.size());
-    for (const std::uint32_t corner : triangle)
-      soup.vertices.push_back(balls->vertices[corner]);
-    soup.triangles.push_back({first, first + 1, first + 2});
-  }
-  for (const Mesh* mesh : {balls.get(), static_cast<const Mesh*>(&soup)})
-  {
-    const auto parts = findComponents(*mesh).components;
-    ASSERT_EQ(parts.size(), 2U);
-    EXPECT_NEAR((parts[0].point - parts[1].point).norm(), 0.3, 0.021);
-    EXPECT_TRUE(parts[0].closed && parts[1].closed);
-    EXPECT_NEAR((parts[1].bounds.center() - parts[0].bounds.center()).norm(), 0.3, 1e-3);
-  }
-}
-
-/// Whether findComponents reports the first component of a box as closed after a change of its mesh.
-template <class Change>
-bool closedAfter(const Change& change)
-{
-  Mesh mesh = *tessellate(Box{{1.0, 1.0, 1.0}}).mesh;
-  change(mesh);
-  return findComponents(mesh).components.at(0).closed;
-}
-
-TEST(Components, AreClosedIfEachEdgeHasTwoTrianglesOfOppositeDirection)
-{
-  EXPECT_TRUE(closedAfter([](Mesh&) {}));
-  EXPECT_TRUE(closedAfter(
-      [](Mesh& inverted)
-      {
-        for (auto& t : inverted.triangles)
-          std::swap(t[0], t[1]);
-      }));
-  EXPECT_FALSE(closedAfter([](Mesh& cracked) { cracked.triangles.pop_back(); }));
-  EXPECT_FALSE(closedAfter([](Mesh& flipped) { std::swap(flipped.triangles[3][0], flipped.triangles[3][1]); }));
-  EXPECT_FALSE(closedAfter([](Mesh& doubled) { doubled.triangles.push_back(doubled.triangles[5]); }));
-  // A triangle with two equal corners does not open the mesh.
-  EXPECT_TRUE(closedAfter([](Mesh& needle) { needle.triangles.push_back({0, 1, 1}); }));
 }
 
 class Containment : public testing::TestWithParam<std::tuple<Traversal, Shape>>

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace gpu_planning_scene::core
+{
+/// Disjoint sets with path halving (R. E. Tarjan, J. van Leeuwen: Worst-case analysis of set union algorithms. Journal
+/// of the ACM 31(2), 1984).
+class DisjointSets
+{
+ public:
+  explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
+
+  std::uint32_t find(std::uint32_t element)
+  {
+    while (parent_[element] != element)
+      element = parent_[element] = parent_[parent_[element]];
+    return element;
+  }
+
+  void unite(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,40 @@
+#include "model/solids/mesh_edges.h"
+
+#include <numeric>
+
+// The uses are grouped by the lower place of their edge (counting sort), then sorted in each group.
+namespace gpu_planning_scene::core
+{
+namespace
+{
+template <class Visit>
+void eachUse(const std::vector<Corners>& triangles, const Visit& visit)
+{
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3 && hasDistinctCorners(triangles[t]); ++i)
+    {
+      const std::uint32_t a = triangles[t][i];
+      const std::uint32_t b = triangles[t][(i + 1) % 3];
+      visit(EdgeUse{std::min(a, b), std::max(a, b), t, a < b});
+    }
+}
+}  // namespace
+
+std::vector<EdgeUse> edgeUses(const std::vector<Corners>& triangles)
+{
+  std::uint32_t places = 0;
+  for (const Corners& triangle : triangles)
+    places = std::max({places, triangle[0] + 1, triangle[1] + 1, triangle[2] + 1});
+  std::vector<std::uint32_t> begin(places + std::size_t{1}, 0);
+  eachUse(triangles, [&](const EdgeUse& use) { ++begin[use.low + std::size_t{1}]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<EdgeUse> uses(begin.back());
+  std::vector<std::uint32_t> next = begin;
+  eachUse(triangles, [&](const EdgeUse& use) { uses[next[use.low]++] = use; });
+  for (std::size_t place = 0; place < places; ++place)
+    std::sort(uses.begin() + begin[place], uses.begin() + begin[place + 1],
+              [](const EdgeUse& a, const EdgeUse& b)
+              { return a.high != b.high ? a.high < b.high : a.triangle < b.triangle; });
+  return uses;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,346 @@
+#include "model/solids/surface_closer.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "model/solids/disjoint_sets.h"
+#include "model/solids/hole_filling.h"
+#include "model/solids/orientation.h"
+#include "model/solids/seams.h"
+
+// A surface without signed boundary is a cycle; it bounds the points around which its winding number is not 0. A cycle
+// modulo 2 bounds the points with an odd number of crossings. What is left open is closed by chains over the same
+// vertices: thin triangles along seams and between welded vertices, fillings of holes. (Cycles and boundaries: J. R.
+// Munkres, Elements of Algebraic Topology, 1984. The winding number of a mesh with holes is that of the closed mesh
+// less the solid angles of the fillings: A. Jacobson, L. Kavan, O. Sorkine-Hornung, Robust Inside-Outside Segmentation
+// using Generalized Winding Numbers, 2013.)
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Vector3d;
+using Numbers = std::vector<std::uint32_t>;
+
+/// Triangles of a part that bound a solid, together with the triangles that close them.
+struct Cycle
+{
+  Numbers members;
+  std::vector<Corners> turned;  // the members' welded corners, in the cycle's direction
+  std::vector<FilledHole> holes = {};
+  TriangleRole role = TriangleRole::Winding;
+  std::vector<Corners> chain = {};  // the members with their own corners, then the triangles that close them
+  double share = 0.0;               // area of the triangles that close the members, as a share of the part's area
+};
+
+class SurfaceCloser
+{
+ public:
+  SurfaceCloser(const std::vector<Vector3d>& points, std::vector<Corners> triangles, double tolerance,
+                WeldedCorners welded, double most_share)
+    : points_(points), most_share_(most_share), input_count_(triangles.size())
+  {
+    result_.triangles = std::move(triangles);
+    result_.roles.assign(input_count_, TriangleRole::Surface);
+    weldCorners(tolerance, welded);
+    countCopies();
+    addSeams(tolerance);
+    for (const Numbers& part : partsOf(unique_))
+      closePart(part);
+  }
+
+  ClosedSurface take() { return std::move(result_); }
+
+ private:
+  void weldCorners(double tolerance, WeldedCorners welded)
+  {
+    std::vector<bool> used(points_.size(), false);
+    if (welded == WeldedCorners::All)
+    {
+      for (const Corners& t : result_.triangles)
+        for (const std::uint32_t place : t)
+          used[place] = true;
+    }
+    else
+      visitEdges(edgeUses(result_.triangles),
+                 [&](auto first, auto last)
+                 {
+                   if ((last - first) % 2 == 1)
+                     used[first->low] = used[first->high] = true;
+                 });
+    representative_ = weld(points_, used, tolerance);
+    for (const Corners& t : result_.triangles)
+      welded_.push_back({representative_[t[0]], representative_[t[1]], representative_[t[2]]});
+  }
+
+  /// Fills unique_ with the first of the triangles with the same corners, and copies_ with their number.
+  void countCopies()
+  {
+    std::map<Corners, std::uint32_t> first_with;
+    copies_.assign(welded_.size(), 0);
+    for (std::uint32_t t = 0; t < welded_.size(); ++t)
+    {
+      if (!hasDistinctCorners(welded_[t]))
+        continue;
+      Corners sorted = welded_[t];
+      std::sort(sorted.begin(), sorted.end());
+      const auto [first, is_new] = first_with.try_emplace(sorted, t);
+      if (is_new)
+        unique_.push_back(t);
+      ++copies_[first->second];
+    }
+  }
+
+  /// Seam triangles become triangles like those of the input, at the end of the list.
+  void addSeams(double tolerance)
+  {
+    std::vector<Corners> triangles;
+    for (const std::uint32_t t : unique_)
+      triangles.push_back(welded_[t]);
+    for (const Corners& seam : seamTriangles(points_, triangles, tolerance))
+    {
+      unique_.push_back(static_cast<std::uint32_t>(welded_.size()));
+      welded_.push_back(seam);
+      copies_.push_back(1);
+      result_.triangles.push_back(seam);
+      result_.roles.push_back(TriangleRole::Surface);
+    }
+  }
+
+  /// The sets of triangles that are connected by edges.
+  std::vector<Numbers> partsOf(const Numbers& numbers) const
+  {
+    DisjointSets sets(numbers.size());
+    visitEdges(edgeUses(cornersOf(numbers)),
+               [&](auto first, auto last)
+               {
+                 for (auto use = first; use != last; ++use)
+                   sets.unite(first->triangle, use->triangle);
+               });
+    std::vector<Numbers> parts;
+    std::vector<std::size_t> part_of_set(numbers.size(), numbers.size());
+    for (std::uint32_t i = 0; i < numbers.size(); ++i)
+    {
+      std::size_t& part = part_of_set[sets.find(i)];
+      if (part == numbers.size())
+      {
+        part = parts.size();
+        parts.emplace_back();
+      }
+      parts[part].push_back(numbers[i]);
+    }
+    return parts;
+  }
+
+  std::vector<Corners> cornersOf(const Numbers& numbers) const
+  {
+    std::vector<Corners> corners;
+    corners.reserve(numbers.size());
+    for (const std::uint32_t t : numbers)
+      corners.push_back(welded_[t]);
+    return corners;
+  }
+
+  void closePart(const Numbers& part)
+  {
+    const OrientedSurface once = orient(points_, cornersOf(part));
+    // Two volumes with a common wall have it twice. Without the wall they are one volume.
+    Numbers without_walls;
+    std::copy_if(part.begin(), part.end(), std::back_inserter(without_walls),
+                 [this](std::uint32_t t) { return copies_[t] % 2 == 1; });
+    const bool has_walls = !without_walls.empty() && without_walls.size() < part.size();
+    const OrientedSurface outer = has_walls ? orient(points_, cornersOf(without_walls)) : OrientedSurface();
+    const bool is_closed = once.boundary.empty() || once.even;
+    const bool is_outer_closed = has_walls && (outer.boundary.empty() || outer.even);
+    if (!is_closed && !is_outer_closed && closeCore(part))
+      return;
+    if (once.boundary.empty() || (is_closed && !(is_outer_closed && outer.boundary.empty())))
+      return accept(completed(part, once), part);
+    if (is_outer_closed)
+      return accept(completed(without_walls, outer), part);
+    Cycle cycle = completed(part, once);
+    if (has_walls)
+    {
+      Cycle outer_cycle = completed(without_walls, outer);
+      if (outer_cycle.share < cycle.share)
+        cycle = std::move(outer_cycle);
+    }
+    accept(cycle, part);
+  }
+
+  /// Takes away the triangles at free edges until none is left, for example a fin on a closed surface. If the rest is
+  /// closed, closes it and the parts of what was taken away, and returns true.
+  bool closeCore(const Numbers& part)
+  {
+    const std::vector<Corners> corners = cornersOf(part);
+    const std::vector<EdgeUse> uses = edgeUses(corners);
+    struct Edge
+    {
+      std::size_t first, last;
+      std::size_t left;
+    };
+    std::vector<Edge> edges;
+    std::vector<std::array<std::size_t, 3>> edges_of(part.size());
+    std::vector<int> known(part.size(), 0);
+    for (std::size_t first = 0; first < uses.size();)
+    {
+      std::size_t last = first;
+      while (last < uses.size() && uses[last].sameEdge(uses[first]))
+        edges_of[uses[last].triangle][known[uses[last].triangle]++] = edges.size(), ++last;
+      edges.push_back({first, last, last - first});
+      first = last;
+    }
+    std::vector<bool> taken(part.size(), false);
+    std::vector<std::size_t> open(edges.size());
+    std::iota(open.begin(), open.end(), std::size_t{0});
+    while (!open.empty())
+    {
+      const Edge edge = edges[open.back()];
+      open.pop_back();
+      if (edge.left != 1)
+        continue;
+      std::size_t use = edge.first;
+      while (taken[uses[use].triangle])
+        ++use;
+      const std::uint32_t t = uses[use].triangle;
+      taken[t] = true;
+      for (const std::size_t e : edges_of[t])
+      {
+        --edges[e].left;
+        open.push_back(e);
+      }
+    }
+    Numbers core;
+    Numbers rest;
+    for (std::size_t i = 0; i < part.size(); ++i)
+      (taken[i] ? rest : core).push_back(part[i]);
+    if (core.empty() || rest.empty())
+      return false;
+    const OrientedSurface closed = orient(points_, cornersOf(core));
+    if (!closed.boundary.empty() && !closed.even)
+      return false;
+    accept(completed(core, closed), core);
+    for (const Numbers& other : partsOf(rest))
+      closePart(other);
+    return true;
+  }
+
+  /// The cycle of an oriented surface: with its holes filled, unless it is closed or parity decides.
+  Cycle completed(const Numbers& members, const OrientedSurface& surface) const
+  {
+    Cycle cycle{members, surface.triangles};
+    if (surface.even && !surface.boundary.empty())
+      cycle.role = TriangleRole::Parity;
+    else
+      cycle.holes = fillHoles(points_, surface.boundary);
+    double area = 0.0;
+    double added_area = 0.0;
+    for (std::size_t i = 0; i < members.size(); ++i)
+    {
+      Corners corners = result_.triangles[members[i]];
+      if (cycle.turned[i] != welded_[members[i]])
+        std::swap(corners[1], corners[2]);
+      cycle.chain.push_back(corners);
+      (members[i] < input_count_ ? area : added_area) += areaOf(points_, corners);
+    }
+    for (const FilledHole& hole : cycle.holes)
+      cycle.chain.insert(cycle.chain.end(), hole.triangles.begin(), hole.triangles.end());
+    for (const Corners& triangle : connections(cycle))
+      cycle.chain.push_back(triangle);
+    for (std::size_t i = members.size(); i < cycle.chain.size(); ++i)
+      added_area += areaOf(points_, cycle.chain[i]);
+    cycle.share = area > 0.0 ? added_area / area : 1.0;
+    return cycle;
+  }
+
+  /// Where corners were welded, thin triangles connect each edge with the edge that stands for it.
+  std::vector<Corners> connections(const Cycle& cycle) const
+  {
+    std::vector<Corners> added;
+    const auto connect = [&](std::uint32_t from, std::uint32_t to)
+    {
+      for (const Corners& triangle :
+           {Corners{to, from, representative_[from]}, Corners{to, representative_[from], representative_[to]}})
+        if (hasDistinctCorners(triangle))
+          added.push_back(triangle);
+    };
+    if (cycle.role == TriangleRole::Winding)
+      for (const BoundaryEdge& edge : signedBoundary(cycle.chain))
+        connect(edge.from, edge.to);
+    else
+      visitEdges(edgeUses(cycle.chain),
+                 [&](auto first, auto last)
+                 {
+                   if ((last - first) % 2 == 1)
+                     connect(first->low, first->high);
+                 });
+    return added;
+  }
+
+  /// Adds a cycle to the solid, unless too much of it would have to be added.
+  void accept(const Cycle& cycle, const Numbers& part)
+  {
+    if (!(cycle.share <= most_share_))
+    {
+      for (const std::uint32_t t : part)
+        if (t < input_count_)
+          result_.open.push_back(t);
+      report(part, PartKind::Surface, cycle);
+      return;
+    }
+    for (std::size_t i = 0; i < cycle.chain.size(); ++i)
+      if (i < cycle.members.size())
+      {
+        result_.triangles[cycle.members[i]] = cycle.chain[i];
+        result_.roles[cycle.members[i]] = cycle.role;
+      }
+      else
+      {
+        result_.triangles.push_back(cycle.chain[i]);
+        result_.roles.push_back(cycle.role);
+      }
+    report(part, cycle.holes.empty() ? PartKind::Mended : PartKind::Filled, cycle);
+  }
+
+  void report(const Numbers& part, PartKind kind, const Cycle& cycle)
+  {
+    MeshPart entry{kind, 0, {}};
+    for (const std::uint32_t t : part)
+    {
+      if (t < input_count_)
+        entry.triangles += copies_[t];
+      for (const std::uint32_t place : result_.triangles[t])
+        entry.bounds.extend(points_[place]);
+    }
+    entry.holes = cycle.holes.size();
+    for (const FilledHole& hole : cycle.holes)
+    {
+      Eigen::AlignedBox3d box;
+      for (const std::uint32_t place : hole.rim)
+        box.extend(points_[place]);
+      entry.largest_hole = std::max(entry.largest_hole, box.diagonal().norm());
+    }
+    entry.hole_share = cycle.share;
+    result_.parts.push_back(entry);
+  }
+
+  const std::vector<Vector3d>& points_;
+  const double most_share_;
+  const std::size_t input_count_;
+  Numbers representative_;       // of each place
+  std::vector<Corners> welded_;  // the corners of each triangle by their representatives
+  Numbers copies_;               // for the first of equal triangles: their number
+  Numbers unique_;               // the first of each set of equal triangles
+  ClosedSurface result_;
+};
+}  // namespace
+
+ClosedSurface closeSurface(const std::vector<Vector3d>& points, std::vector<Corners> triangles, double tolerance,
+                           WeldedCorners welded, double most_share)
+{
+  return SurfaceCloser(points, std::move(triangles), tolerance, welded, most_share).take();
+}
+}  // namespace gpu_planning_scene::core

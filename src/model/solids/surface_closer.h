@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "gpu_planning_scene/solids.h"
+#include "model/solids/mesh_edges.h"
+#include "model/solids/welding.h"
+
+namespace gpu_planning_scene::core
+{
+/// The triangles of a mesh, as places, with the triangles that close them.
+struct ClosedSurface
+{
+  std::vector<Corners> triangles;  ///< those of the input in their order, some of them turned; then the added ones
+  std::vector<TriangleRole> roles;
+  std::vector<MeshPart> parts;      ///< none is Closed
+  std::vector<std::uint32_t> open;  ///< the numbers of the input's triangles in parts of the kind Surface
+};
+
+enum class WeldedCorners
+{
+  All,
+  OfFreeEdges  ///< of edges that an odd number of triangles use
+};
+
+/// Steps 2 and 3 of solidMeshOf for triangles of a mesh. `tolerance`: metres, for welding and seams. A part remains a
+/// surface if the triangles that close it have more than `most_share` of its area.
+ClosedSurface closeSurface(const std::vector<Eigen::Vector3d>& points, std::vector<Corners> triangles, double tolerance,
+                           WeldedCorners welded, double most_share);
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,36 @@
+#include "scene/solid_rules.h"
+
+namespace gpu_planning_scene::core
+{
+std::optional<SolidRule> solidRuleOf(const std::vector<PlacedShape>& shapes)
+{
+  for (const PlacedShape& placed : shapes)
+    if (const auto* mesh = std::get_if<std::shared_ptr<const Mesh>>(&placed.shape))
+      return (*mesh)->solid;
+  return std::nullopt;
+}
+
+std::map<std::string, SolidRule> solidRulesOf(const PlanningScene& scene)
+{
+  std::map<std::string, SolidRule> rules;
+  bool is_usual = true;
+  for (const Link& link : scene.robot->links())
+    if (const std::optional<SolidRule> rule = solidRuleOf(link.shapes))
+    {
+      rules[link.name] = *rule;
+      is_usual = is_usual && *rule == SolidRule::Auto;
+    }
+  if (is_usual)
+    rules.clear();
+  const auto add = [&](const WorldObject& object)
+  {
+    if (const auto rule = solidRuleOf(object.shapes); rule && *rule != SolidRule::Auto)
+      rules[object.id] = *rule;
+  };
+  for (const WorldObject& object : scene.objects)
+    add(object);
+  for (const AttachedObject& attached : scene.attached)
+    add(attached.object);
+  return rules;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,382 @@
+// Which points a mesh has inside, by brute force over the triangles that count for the solid.
+
+#include <cmath>
+#include <map>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/solids.h"
+#include "support/damaged_mesh.h"
+#include "support/inside.h"
+#include "support/obstacles.h"
+#include "support/repetitions.h"
+#include "support/seed.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Vector3d;
+using MeshPointer = std::shared_ptr<const Mesh>;
+
+/// The solid angle of a triangle at the origin (van Oosterom and Strackee 1983).
+double solidAngle(const Vector3d& a, const Vector3d& b, const Vector3d& c)
+{
+  const double la = a.norm();
+  const double lb = b.norm();
+  const double lc = c.norm();
+  return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+/// Whether a point that is not on the surface is inside the solid.
+bool contains(const SolidMesh& solid, const Vector3d& point)
+{
+  double winding = 0.0;
+  Mesh parity;
+  parity.vertices = solid.mesh->vertices;
+  for (std::size_t i = 0; i < solid.roles.size(); ++i)
+  {
+    const auto& t = solid.mesh->triangles[i];
+    const auto corner = [&](std::size_t k) -> Vector3d { return solid.mesh->vertices[t[k]] - point; };
+    if (solid.roles[i] == TriangleRole::Winding)
+      winding += solidAngle(corner(0), corner(1), corner(2)) / (4.0 * M_PI);
+    else if (solid.roles[i] == TriangleRole::Parity)
+      parity.triangles.push_back(t);
+  }
+  EXPECT_NEAR(winding, std::round(winding), 1e-6) << "the triangles are not closed";
+  return std::lround(winding) != 0 || isInside(std::make_shared<const Mesh>(parity), point);
+}
+
+bool contains(const MeshPointer& mesh, const Vector3d& point)
+{
+  return contains(*solidMeshOf(mesh), point);
+}
+
+MeshPointer changed(const MeshPointer& mesh, const std::function<void(Mesh&)>& change)
+{
+  auto copy = std::make_shared<Mesh>(*mesh);
+  change(*copy);
+  return copy;
+}
+
+/// A cube with edges of 2 m around `center`, with vertices of its own.
+MeshPointer cube(const Vector3d& center = Vector3d::Zero())
+{
+  return changed(
+      tessellate(Box{{2.0, 2.0, 2.0}}).mesh,
+      [&](Mesh& mesh)
+      {
+        for (Vector3d& vertex : mesh.vertices)
+          vertex += center;
+      });
+}
+
+MeshPointer together(const MeshPointer& a, const MeshPointer& b)
+{
+  return changed(
+      a,
+      [&b](Mesh& mesh)
+      {
+        const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+        mesh.vertices.insert(mesh.vertices.end(), b->vertices.begin(), b->vertices.end());
+        for (const auto& t : b->triangles)
+          mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+      });
+}
+
+/// Expects a solid that has the centre of the cube, points near its corners, and nothing outside.
+void expectCube(const MeshPointer& mesh, const std::string& what, PartKind kind = PartKind::Mended)
+{
+  EXPECT_GE(solidMeshOf(mesh)->parts.count(kind), 1U) << what;
+  EXPECT_EQ(solidMeshOf(mesh)->parts.count(PartKind::Surface), 0U) << what;
+  for (const Vector3d& corner : mesh->vertices)
+  {
+    EXPECT_TRUE(contains(mesh, 0.97 * corner + Vector3d(1e-3, 2e-3, 3e-3))) << what;
+    EXPECT_FALSE(contains(mesh, 1.03 * corner + Vector3d(1e-3, 2e-3, 3e-3))) << what;
+  }
+  EXPECT_TRUE(contains(mesh, Vector3d(0.01, 0.02, 0.03))) << what;
+}
+
+TEST(SolidMesh, OfAClosedMeshIsTheMeshItself)
+{
+  const MeshPointer mesh = cube();
+  const auto solid = solidMeshOf(mesh);
+  EXPECT_EQ(solid->mesh, mesh);
+  EXPECT_EQ(solid->parts.closed, 1U);
+  EXPECT_TRUE(solid->parts.other.empty());
+  EXPECT_TRUE(solid->isAllSolid());
+  EXPECT_EQ(solidMeshOf(mesh), solid) << "made twice";
+  expectCube(mesh, "closed", PartKind::Closed);
+}
+
+TEST(SolidMesh, DoesNotDependOnTheDirectionOfTriangles)
+{
+  for (std::size_t flipped = 0; flipped < 12; ++flipped)
+    expectCube(changed(
+                   cube(), [&](Mesh& mesh) { std::swap(mesh.triangles[flipped][0], mesh.triangles[flipped][2]); }),
+               "triangle " + std::to_string(flipped));
+  expectCube(changed(cube(),
+                     [](Mesh& mesh)
+                     {
+                       for (std::size_t t : {0U, 3U, 4U, 7U, 11U})
+                         std::swap(mesh.triangles[t][1], mesh.triangles[t][2]);
+                     }),
+             "five triangles");
+}
+
+TEST(SolidMesh, CountsTrianglesThatAreThereTwiceOnce)
+{
+  expectCube(changed(
+                 cube(),
+                 [](Mesh& mesh) {
+                   mesh.triangles.push_back({0, 2, 1});
+                 }),
+             "one twice");
+  expectCube(changed(
+                 cube(),
+                 [](Mesh& mesh) {
+                   mesh.triangles.push_back({0, 1, 2});
+                 }),
+             "one from both sides");
+  expectCube(changed(
+                 cube(),
+                 [](Mesh& mesh)
+                 {
+                   for (std::size_t t = 0; t < 12; ++t)
+                     mesh.triangles.push_back(std::array<std::uint32_t, 3>(mesh.triangles[t]));
+                 }),
+             "all twice");
+  expectCube(changed(cube(),
+                     [](Mesh& mesh)
+                     {
+                       for (std::size_t t = 0; t < 12; ++t)
+                         mesh.triangles.push_back({mesh.triangles[t][0], mesh.triangles[t][2], mesh.triangles[t][1]});
+                     }),
+             "all from both sides");
+}
+
+TEST(SolidMesh, MayHaveVolumesThatTouch)
+{
+  // The wall between the first two is there twice, and their triangles there are cut along different diagonals or the
+  // same ones.
+  for (const Vector3d& shift : {Vector3d(2, 0, 0), Vector3d(0, 2, 0), Vector3d(0, 0, 2), Vector3d(2, 2, 0),
+                                Vector3d(0, 2, 2), Vector3d(2, 2, 2)})
+    for (const bool is_flipped : {false, true})
+    {
+      MeshPointer both = together(cube(), cube(shift));
+      if (is_flipped)
+        both = changed(both,
+                       [](Mesh& mesh)
+                       {
+                         for (std::size_t t = 12; t < 24; ++t)
+                           std::swap(mesh.triangles[t][0], mesh.triangles[t][1]);
+                       });
+      const std::string what = "shift " + std::to_string(shift.x()) + " " + std::to_string(shift.y()) + " " +
+                               std::to_string(shift.z()) + (is_flipped ? ", one inside out" : "");
+      EXPECT_EQ(solidMeshOf(both)->parts.count(PartKind::Surface), 0U) << what;
+      for (const Vector3d& offset : {Vector3d(0.01, 0.02, 0.03), Vector3d(0.9, 0.85, 0.8), Vector3d(-0.9, -0.85, -0.8)})
+      {
+        EXPECT_TRUE(contains(both, offset)) << what;
+        EXPECT_TRUE(contains(both, shift + offset)) << what;
+      }
+      EXPECT_FALSE(contains(both, Vector3d(-1.1, 0.02, 0.03))) << what;
+      EXPECT_FALSE(contains(both, shift + Vector3d(1.1, 0.02, 0.03))) << what;
+    }
+}
+
+TEST(SolidMesh, ClosesSeamsWithTJunctions)
+{
+  std::mt19937_64 generator(kSeed);
+  for (int repetition = 0; repetition < repetitions(8, 200); ++repetition)
+    expectCube(damaged(*cube(), MeshDamage::Split, 0.5, generator), "split");
+}
+
+TEST(SolidMesh, JoinsCornersThatDifferByRounding)
+{
+  expectCube(changed(cube(),
+                     [](Mesh& mesh)
+                     {
+                       mesh.vertices.push_back(mesh.vertices[0] + Vector3d(1e-9, -1e-9, 0.0));
+                       mesh.triangles[0][0] = 8;
+                     }),
+             "one corner");
+  std::mt19937_64 generator(kSeed);
+  for (int repetition = 0; repetition < repetitions(8, 200); ++repetition)
+    expectCube(damaged(*cube(), MeshDamage::Shifted, 1.0, generator), "all corners");
+}
+
+TEST(SolidMesh, KeepsItsVolumeWithAFin)
+{
+  // On an edge, on a corner, and on the diagonal of a face.
+  for (const auto& [a, b] : {std::pair(0U, 1U), std::pair(7U, 8U), std::pair(1U, 2U)})
+  {
+    const MeshPointer with_fin = changed(cube(),
+                                         [a = a, b = b](Mesh& mesh)
+                                         {
+                                           mesh.vertices.push_back({3.0, 3.1, 3.2});
+                                           mesh.vertices.push_back({3.0, -3.1, 3.2});
+                                           mesh.triangles.push_back({a, b, 9});
+                                         });
+    const auto solid = solidMeshOf(with_fin);
+    EXPECT_TRUE(contains(*solid, {0.01, 0.02, 0.03}));
+    EXPECT_FALSE(contains(*solid, {1.5, 1.4, 1.3}));
+    EXPECT_EQ(solid->parts.count(PartKind::Surface), 1U);
+    EXPECT_FALSE(solid->isAllSolid());
+  }
+}
+
+TEST(SolidMesh, BoundsByParityWhereNoDirectionIsPossible)
+{
+  // A Klein bottle that passes through itself: a figure eight that turns by half around an axis.
+  constexpr std::uint32_t kAround = 48;
+  constexpr std::uint32_t kAcross = 24;
+  auto mesh = std::make_shared<Mesh>();
+  for (std::uint32_t i = 0; i < kAround; ++i)
+    for (std::uint32_t j = 0; j < kAcross; ++j)
+    {
+      const double u = 2.0 * M_PI * i / kAround;
+      const double v = 2.0 * M_PI * (j + 0.5) / kAcross;
+      const double r = 4.0 + std::cos(u / 2) * std::sin(v) - std::sin(u / 2) * std::sin(2 * v);
+      mesh->vertices.emplace_back(r * std::cos(u), r * std::sin(u),
+                                  std::sin(u / 2) * std::sin(v) + std::cos(u / 2) * std::sin(2 * v));
+    }
+  // After one turn the eight is mirrored: v becomes -v.
+  const auto at = [](std::uint32_t i, std::uint32_t j)
+  { return i < kAround ? i * kAcross + j % kAcross : (2 * kAcross - 1 - j % kAcross) % kAcross; };
+  for (std::uint32_t i = 0; i < kAround; ++i)
+    for (std::uint32_t j = 0; j < kAcross; ++j)
+    {
+      mesh->triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh->triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  const auto solid = solidMeshOf(mesh);
+  EXPECT_EQ(solid->parts.count(PartKind::Mended), 1U);
+  EXPECT_EQ(solid->roles.front(), TriangleRole::Parity);
+  EXPECT_TRUE(contains(*solid, {4.7, 0.05, 0.01})) << "in a lobe of the eight";
+  EXPECT_FALSE(contains(*solid, {0.01, 0.02, 0.03})) << "on the axis";
+}
+
+TEST(SolidMesh, FillsSmallHolesOnly)
+{
+  const MeshPointer ball =
+      closedSurface("ball", 400, 2.0,
+                    [](double along, double angle)
+                    {
+                      const double r = std::sin(M_PI * along);
+                      return Vector3d(r * std::cos(angle), r * std::sin(angle), std::cos(M_PI * along));
+                    });
+  std::size_t filled = 0;
+  std::size_t open = 0;
+  for (std::size_t missing = 1; missing < 200; missing += 11)
+  {
+    // The triangles of a ball of rings are in the order of their columns: a slice is missing.
+    const MeshPointer mesh = changed(ball, [&](Mesh& copy) { copy.triangles.resize(copy.triangles.size() - missing); });
+    const auto solid = solidMeshOf(mesh);
+    ASSERT_EQ(solid->parts.other.size(), 1U);
+    const MeshPart& part = solid->parts.other.front();
+    EXPECT_EQ(part.triangles, mesh->triangles.size());
+    EXPECT_GE(part.holes, 1U);
+    EXPECT_EQ(part.kind, part.hole_share <= kSmallHoles ? PartKind::Filled : PartKind::Surface);
+    EXPECT_EQ(contains(*solid, {0.02, 0.3, 0.1}), part.kind == PartKind::Filled);
+    EXPECT_FALSE(contains(*solid, {0.02, 1.3, 0.1}));
+    (part.kind == PartKind::Filled ? filled : open) += 1;
+    EXPECT_TRUE(contains(changed(mesh, [](Mesh& copy) { copy.solid = SolidRule::Filled; }), {0.02, 0.3, 0.1}));
+  }
+  EXPECT_GT(filled, 2U);
+  EXPECT_GT(open, 2U);
+}
+
+TEST(SolidMesh, OfTheRuleSurfaceHasNothingInside)
+{
+  const auto solid = solidMeshOf(changed(cube(), [](Mesh& mesh) { mesh.solid = SolidRule::Surface; }));
+  EXPECT_FALSE(solid->hasSolid());
+  EXPECT_FALSE(contains(*solid, {0.01, 0.02, 0.03}));
+}
+
+/// For each directed edge, by the coordinates of its ends: how much more often the triangles that count run along it
+/// than against it.
+std::size_t openEdges(const SolidMesh& solid)
+{
+  using Point = std::array<double, 3>;
+  std::map<std::array<Point, 2>, std::pair<int, int>> uses;
+  for (std::size_t i = 0; i < solid.roles.size(); ++i)
+    for (std::size_t k = 0; k < 3 && solid.roles[i] != TriangleRole::Surface; ++k)
+    {
+      const Vector3d& a = solid.mesh->vertices[solid.mesh->triangles[i][k]];
+      const Vector3d& b = solid.mesh->vertices[solid.mesh->triangles[i][(k + 1) % 3]];
+      const Point from = {a.x() + 0.0, a.y() + 0.0, a.z() + 0.0};
+      const Point to = {b.x() + 0.0, b.y() + 0.0, b.z() + 0.0};
+      auto& [sum, odd] = uses[from < to ? std::array{from, to} : std::array{to, from}];
+      if (solid.roles[i] == TriangleRole::Winding)
+        sum += from < to ? 1 : -1;
+      else
+        ++odd;
+    }
+  return static_cast<std::size_t>(std::count_if(
+      uses.begin(), uses.end(), [](const auto& use) { return use.second.first != 0 || use.second.second % 2 != 0; }));
+}
+
+/// The distance of a point from the triangles of a mesh, by brute force over samples of them.
+double sampledDistance(const Mesh& mesh, const Vector3d& point)
+{
+  double least = std::numeric_limits<double>::max();
+  for (const auto& t : mesh.triangles)
+    for (int i = 0; i <= 6; ++i)
+      for (int k = 0; i + k <= 6; ++k)
+        least = std::min(
+            least,
+            ((i * mesh.vertices[t[0]] + k * mesh.vertices[t[1]] + (6 - i - k) * mesh.vertices[t[2]]) / 6.0 - point)
+                .norm());
+  return least;
+}
+
+TEST(SolidMesh, OfADamagedMeshHasTheInsideOfTheUndamagedOne)
+{
+  const std::vector<MeshPointer> meshes = {
+      cube(), torusMesh(1.0, 0.4), tessellate(Cylinder{0.01, 0.03}).mesh, tessellate(Cone{3.0, 1.0}).mesh,
+      closedSurface("pear", 600, 1.5,
+                    [](double along, double angle)
+                    {
+                      const double r = (0.3 + 0.7 * along) * std::sin(M_PI * along);
+                      return Vector3d(r * std::cos(angle), r * std::sin(angle), 2.0 * along);
+                    })};
+  std::mt19937_64 generator(kSeed);
+  std::size_t inside = 0;
+  std::size_t tried = 0;
+  for (int repetition = 0; repetition < repetitions(2, 250); ++repetition)
+    for (const MeshPointer& mesh : meshes)
+      for (const MeshDamage damage : allMeshDamages())
+      {
+        // Two faults in one mesh. Missing triangles have less than kSmallHoles of the area.
+        const double share =
+            damage == MeshDamage::Deleted ? 0.03 : std::uniform_real_distribution<>(0.0, 0.9)(generator);
+        MeshPointer broken = damaged(*mesh, damage, share, generator);
+        if (damage != MeshDamage::FrontAndBack && mesh->triangles.size() > 100)
+          broken = damaged(*broken, MeshDamage::Flipped, 0.1, generator);
+        const std::string what = mesh->name + ", " + nameOf(damage) + ", repetition " + std::to_string(repetition);
+        const auto solid = solidMeshOf(broken);
+        ASSERT_EQ(openEdges(*solid), 0U) << what;
+        ASSERT_EQ(solid->parts.count(PartKind::Surface), 0U) << what << ", seed " << kSeed;
+        ASSERT_TRUE(std::equal(broken->vertices.begin(), broken->vertices.end(), solid->mesh->vertices.begin()));
+        Eigen::AlignedBox3d box;
+        for (const Vector3d& vertex : mesh->vertices)
+          box.extend(vertex);
+        double largest_hole = 2e-3 * box.diagonal().norm();
+        for (const MeshPart& part : solid->parts.other)
+          largest_hole = std::max(largest_hole, part.largest_hole);
+        for (int i = 0; i < 10; ++i)
+        {
+          const Vector3d point = box.sample();
+          const bool expected = isInside(mesh, point);
+          if (contains(*solid, point) == expected)
+            inside += expected ? 1 : 0;
+          else
+            ASSERT_LT(sampledDistance(*mesh, point), largest_hole) << what;
+          ++tried;
+        }
+      }
+  EXPECT_GT(inside, tried / 10);
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core
