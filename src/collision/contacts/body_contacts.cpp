@@ -43,7 +43,7 @@ std::optional<Vector3d> pointInside(const ContactShape& outer, const ContactShap
 {
   if (!inner.tree->mesh && contains(outer, inner.pose.translation()))
     return inner.pose.translation();
-  for (const Component& component : inner.tree->components.components)
+  for (const Component& component : componentsOf(*inner.tree))
     if (contains(outer, inner.pose * component.point))
       return inner.pose * component.point;
   return std::nullopt;

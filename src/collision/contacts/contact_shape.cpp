@@ -83,8 +83,7 @@ bool isConvexSolid(const CpuTree& tree)
 {
   if (!tree.mesh)
     return true;
-  const auto& parts = tree.components.components;
-  if (parts.size() != 1 || !tree.components.hasSolid())
+  if (componentsOf(tree).size() != 1 || !tree.solid->hasSolid())
     return false;
   const double tolerance = 1e-9 * tree.half.norm();
   std::vector<std::uint32_t> stack;

@@ -76,7 +76,7 @@ bool containsComponent(const CpuTree& outer, const CpuTree& inner, const Isometr
   if (bounds.isEmpty())
     return false;
   const double diagonal = bounds.diagonal().norm() + kBoxMargin;
-  for (const Component& component : inner.solid->components)
+  for (const Component& component : componentsOf(inner))
   {
     // Each side of the component's box is the distance of two of its points along an axis. If a side exceeds the
     // diagonal of the solid's bounds, the component does not fit into the solid.

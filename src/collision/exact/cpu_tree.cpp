@@ -126,6 +126,12 @@ TreeRegistry& treeRegistry()
 }
 }  // namespace
 
+const std::vector<Component>& componentsOf(const CpuTree& tree)
+{
+  static const std::vector<Component> none;
+  return tree.solid ? tree.solid->components : none;
+}
+
 std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Tessellation& tessellation, const Forest& forest,
                                            std::size_t number)
 {

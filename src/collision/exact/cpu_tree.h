@@ -50,6 +50,9 @@ struct CpuTree
   std::vector<TriangleRole> roles;  ///< one per triangle; meshes only
 };
 
+/// The connected components of a mesh; none for a primitive.
+const std::vector<Component>& componentsOf(const CpuTree& tree);
+
 /// The tree of a shape, over its triangles: tree `number` of `forest`, which must be valid for them.
 std::shared_ptr<const CpuTree> makeCpuTree(const Shape& shape, const Tessellation& tessellation, const Forest& forest,
                                            std::size_t number);

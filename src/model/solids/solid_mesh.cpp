@@ -118,21 +118,33 @@ class ChangedMesh
   std::vector<std::uint32_t> vertex_at_;
 };
 
-/// Closes the triangles with the numbers `open`, with one tolerance after the other.
+/// The attempts to close a part: with one tolerance after the other, first without and then with filled holes. So a
+/// crack is joined before the hole beside it is filled.
+std::vector<Closing> attempts(double diagonal, SolidRule rule)
+{
+  std::vector<Closing> all;
+  for (const bool fills_holes : {false, true})
+    for (const double share : kTolerances)
+      all.push_back({share * diagonal, share == kTolerances.front() ? WeldedCorners::All : WeldedCorners::OfFreeEdges,
+                     fills_holes, kSmallHoles});
+  if (rule == SolidRule::Filled)
+    all.back().most_share = std::numeric_limits<double>::infinity();
+  return all;
+}
+
+/// Closes the triangles with the numbers `open`.
 void closeOpenParts(const std::vector<Corners>& triangles, const Places& places, double diagonal,
                     std::vector<std::uint32_t> open, SolidMesh& solid)
 {
   ChangedMesh mesh(solid.mesh, places);
-  const bool fills_all = solid.mesh->solid == SolidRule::Filled;
-  for (const double share : kTolerances)
+  const std::vector<Closing> closings = attempts(diagonal, solid.mesh->solid);
+  for (const Closing& closing : closings)
   {
     std::vector<Corners> part;
     for (const std::uint32_t t : open)
       part.push_back(triangles[t]);
-    const bool is_last = share == kTolerances.back();
-    ClosedSurface surface = closeSurface(places.points, std::move(part), share * diagonal,
-                                         share == kTolerances.front() ? WeldedCorners::All : WeldedCorners::OfFreeEdges,
-                                         is_last && fills_all ? std::numeric_limits<double>::infinity() : kSmallHoles);
+    const bool is_last = &closing == &closings.back();
+    ClosedSurface surface = closeSurface(places.points, std::move(part), closing);
     for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     {
       if (surface.roles[i] == TriangleRole::Surface)
@@ -155,6 +167,8 @@ void closeOpenParts(const std::vector<Corners>& triangles, const Places& places,
     for (const std::uint32_t t : surface.open)
       left.push_back(open[t]);
     open = std::move(left);
+    if (open.empty())
+      break;
   }
   solid.mesh = mesh.get();
 }

@@ -39,15 +39,14 @@ struct Cycle
 class SurfaceCloser
 {
  public:
-  SurfaceCloser(const std::vector<Vector3d>& points, std::vector<Corners> triangles, double tolerance,
-                WeldedCorners welded, double most_share)
-    : points_(points), most_share_(most_share), input_count_(triangles.size())
+  SurfaceCloser(const std::vector<Vector3d>& points, std::vector<Corners> triangles, const Closing& closing)
+    : points_(points), closing_(closing), input_count_(triangles.size())
   {
     result_.triangles = std::move(triangles);
     result_.roles.assign(input_count_, TriangleRole::Surface);
-    weldCorners(tolerance, welded);
+    weldCorners(closing.tolerance, closing.welded);
     countCopies();
-    addSeams(tolerance);
+    addSeams(closing.tolerance);
     for (const Numbers& part : partsOf(unique_))
       closePart(part);
   }
@@ -283,7 +282,7 @@ class SurfaceCloser
   /// Adds a cycle to the solid, unless too much of it would have to be added.
   void accept(const Cycle& cycle, const Numbers& part)
   {
-    if (!(cycle.share <= most_share_))
+    if (!(cycle.share <= closing_.most_share) || (!closing_.fills_holes && !cycle.holes.empty()))
     {
       for (const std::uint32_t t : part)
         if (t < input_count_)
@@ -328,7 +327,7 @@ class SurfaceCloser
   }
 
   const std::vector<Vector3d>& points_;
-  const double most_share_;
+  const Closing& closing_;
   const std::size_t input_count_;
   Numbers representative_;       // of each place
   std::vector<Corners> welded_;  // the corners of each triangle by their representatives
@@ -338,9 +337,8 @@ class SurfaceCloser
 };
 }  // namespace
 
-ClosedSurface closeSurface(const std::vector<Vector3d>& points, std::vector<Corners> triangles, double tolerance,
-                           WeldedCorners welded, double most_share)
+ClosedSurface closeSurface(const std::vector<Vector3d>& points, std::vector<Corners> triangles, const Closing& closing)
 {
-  return SurfaceCloser(points, std::move(triangles), tolerance, welded, most_share).take();
+  return SurfaceCloser(points, std::move(triangles), closing).take();
 }
 }  // namespace gpu_planning_scene::core

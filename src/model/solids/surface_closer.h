@@ -25,8 +25,16 @@ enum class WeldedCorners
   OfFreeEdges  ///< of edges that an odd number of triangles use
 };
 
-/// Steps 2 and 3 of solidMeshOf for triangles of a mesh. `tolerance`: metres, for welding and seams. A part remains a
-/// surface if the triangles that close it have more than `most_share` of its area.
-ClosedSurface closeSurface(const std::vector<Eigen::Vector3d>& points, std::vector<Corners> triangles, double tolerance,
-                           WeldedCorners welded, double most_share);
+/// How to close the parts of a surface.
+struct Closing
+{
+  double tolerance;  ///< metres, for welding and seams
+  WeldedCorners welded;
+  bool fills_holes;   ///< false: a part with a hole remains a surface
+  double most_share;  ///< a part remains a surface if the triangles that close it have more than this share of its area
+};
+
+/// Steps 2 and 3 of solidMeshOf for triangles of a mesh.
+ClosedSurface closeSurface(const std::vector<Eigen::Vector3d>& points, std::vector<Corners> triangles,
+                           const Closing& closing);
 }  // namespace gpu_planning_scene::core

@@ -234,7 +234,7 @@ TEST_F(BallCoverTest, EachComponentContainsABallOfTheThickness)
       {
         if (cover.thickness == 0.0)
           return;
-        ASSERT_LE(tree.components.components.size(), 1u);
+        ASSERT_LE(componentsOf(tree).size(), 1u);
         bool found = false;
         for (const auto& level : cover.levels)
           for (const CoverBall& ball : level)

@@ -136,7 +136,7 @@ class TableMaker
       return Proof::None;
     const std::uint64_t before = scratch_.steps;
     const bool collide = pairs_.collide(a_.instance->tree, pose_a, b_.instance->tree, pose_b, 0.0, scratch_);
-    steps_ += scratch_.steps - before + a_.tree->components.components.size() + b_.tree->components.components.size();
+    steps_ += scratch_.steps - before + componentsOf(*a_.tree).size() + componentsOf(*b_.tree).size();
     return collide ? Proof::None : Proof::Apart;
   }
 
