@@ -55,8 +55,13 @@ std::string lineFor(const PlanningScene& scene, const std::vector<BodyPart>& par
   const std::string what = counted(holes, "hole") + " of up to " + metres(largest_hole);
   if (parts.front().part.kind == PartKind::Filled)
     return where + what + (holes == 1 ? " is" : " are") + " filled (up to " + percent(share) + " of a part's area)";
-  if (holes == 0)
+  if (holes == 0 && share == 0.0)
     return where + "is a surface, as the rule 'surface' demands; a body inside it does not collide";
+  if (holes == 0)
+    return where + counted(parts.size(), "part") + " with " + counted(triangles, "triangle") +
+           (parts.size() == 1 ? " is" : " are") +
+           " only a surface: the cracks are too wide to be joined. A body inside does not collide; `solid: filled` "
+           "joins them";
   return where + counted(parts.size(), "part") + " with " + counted(triangles, "triangle") +
          (parts.size() == 1 ? " is" : " are") + " only a surface: " + what + " (" + percent(share) +
          " of the area; at most " + percent(kSmallHoles) +

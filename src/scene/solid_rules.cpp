@@ -13,15 +13,9 @@ std::optional<SolidRule> solidRuleOf(const std::vector<PlacedShape>& shapes)
 std::map<std::string, SolidRule> solidRulesOf(const PlanningScene& scene)
 {
   std::map<std::string, SolidRule> rules;
-  bool is_usual = true;
   for (const Link& link : scene.robot->links())
     if (const std::optional<SolidRule> rule = solidRuleOf(link.shapes))
-    {
       rules[link.name] = *rule;
-      is_usual = is_usual && *rule == SolidRule::Auto;
-    }
-  if (is_usual)
-    rules.clear();
   const auto add = [&](const WorldObject& object)
   {
     if (const auto rule = solidRuleOf(object.shapes); rule && *rule != SolidRule::Auto)

@@ -23,7 +23,8 @@ bool changesNoSettings(const SceneChange& change)
 /// the two kinds in a fixed order.
 bool canBeOne(const SceneChange& first, const SceneChange& second)
 {
-  if (!changesNoSettings(second))
+  // Rules for solids are applied after all objects of a change.
+  if (!changesNoSettings(second) || !first.solids.empty())
     return false;
   if (second.state.attached.empty())
     return !second.objects.empty() && first.state.attached.empty();

@@ -98,8 +98,9 @@ Separation SeparationProver::test(const Chain& chain, const double* box, std::si
   const Isometry3d a_in_b = b_in_a.inverse();
   const bool moves_b = displacementOf(tree_b, b_in_a, axes) <= displacementOf(tree_a, a_in_b, from_b);
   const double required = problem_.tessellations[chain.a->tree].sagitta + problem_.tessellations[chain.b->tree].sagitta;
-  const bool apart = moves_b ? surfacesApartWhileMoving(tree_a, tree_b, b_in_a, axes, required)
-                             : surfacesApartWhileMoving(tree_b, tree_a, a_in_b, from_b, required);
+  std::uint64_t steps = 0;
+  const bool apart = moves_b ? surfacesApartWhileMoving(tree_a, tree_b, b_in_a, axes, required, steps, {})
+                             : surfacesApartWhileMoving(tree_b, tree_a, a_in_b, from_b, required, steps, {});
   if (pairs_.collide(chain.a->tree, pose_a, chain.b->tree, pose_b, 0.0, scratch_))
     return Separation::Meet;
   if (apart)

@@ -21,6 +21,7 @@ using Eigen::Vector3d;
 using Rim = std::vector<std::uint32_t>;
 
 constexpr std::size_t kLongestRim = 128;  // for the filling of least area: some milliseconds
+constexpr double kMostSteps = 1e8;        // of all fillings of least area in a mesh: about a second
 
 /// Walks along the reversed boundary edges. Whenever a place is reached for the second time, the walk since the first
 /// time is a loop. At a branch, the walk takes the target that is first in lexicographic order.
@@ -136,11 +137,14 @@ void fillBySmallestCorner(const std::vector<Vector3d>& points, FilledHole& hole)
 std::vector<FilledHole> fillHoles(const std::vector<Vector3d>& points, const std::vector<BoundaryEdge>& boundary)
 {
   std::vector<FilledHole> holes;
+  double steps = 0.0;
   for (Rim& loop : loopsOf(points, boundary))
   {
     FilledHole& hole = holes.emplace_back();
     hole.rim = std::move(loop);
-    if (hole.rim.size() <= kLongestRim)
+    const auto length = static_cast<double>(hole.rim.size());
+    steps += length * length * length / 6.0;
+    if (hole.rim.size() <= kLongestRim && steps <= kMostSteps)
       fillByLeastArea(points, hole);
     else
       fillBySmallestCorner(points, hole);

@@ -22,9 +22,22 @@ void eachUse(const std::vector<Corners>& triangles, const Visit& visit)
 
 std::vector<EdgeUse> edgeUses(const std::vector<Corners>& triangles)
 {
+  constexpr std::size_t kManyPlaces = 8;  // per triangle: the table of places would take longer than sorting
   std::uint32_t places = 0;
   for (const Corners& triangle : triangles)
     places = std::max({places, triangle[0] + 1, triangle[1] + 1, triangle[2] + 1});
+  if (places > kManyPlaces * triangles.size())
+  {
+    std::vector<EdgeUse> sorted;
+    sorted.reserve(3 * triangles.size());
+    eachUse(
+        triangles, [&](const EdgeUse& use) { sorted.push_back(use); });
+    std::sort(sorted.begin(), sorted.end(),
+              [](const EdgeUse& a, const EdgeUse& b) {
+                return std::array{a.low, a.high, a.triangle} < std::array{b.low, b.high, b.triangle};
+              });
+    return sorted;
+  }
   std::vector<std::uint32_t> begin(places + std::size_t{1}, 0);
   eachUse(triangles, [&](const EdgeUse& use) { ++begin[use.low + std::size_t{1}]; });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());

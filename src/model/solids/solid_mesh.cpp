@@ -118,18 +118,31 @@ class ChangedMesh
   std::vector<std::uint32_t> vertex_at_;
 };
 
-/// The attempts to close a part: with one tolerance after the other, first without and then with filled holes. So a
-/// crack is joined before the hole beside it is filled.
+/// The attempts to close a part: with one tolerance after the other, then with filled holes. So a crack is joined
+/// before the hole beside it is filled.
 std::vector<Closing> attempts(double diagonal, SolidRule rule)
 {
   std::vector<Closing> all;
-  for (const bool fills_holes : {false, true})
-    for (const double share : kTolerances)
-      all.push_back({share * diagonal, share == kTolerances.front() ? WeldedCorners::All : WeldedCorners::OfFreeEdges,
-                     fills_holes, kSmallHoles});
+  for (const double share : kTolerances)
+    all.push_back({share * diagonal, share == kTolerances.front() ? WeldedCorners::All : WeldedCorners::OfFreeEdges,
+                   false, kSmallHoles});
+  for (const double share : {kTolerances.front(), kTolerances.back()})
+    all.push_back({share * diagonal, WeldedCorners::OfFreeEdges, true, kSmallHoles});
   if (rule == SolidRule::Filled)
     all.back().most_share = std::numeric_limits<double>::infinity();
   return all;
+}
+
+/// Adds a part that remains a surface because its triangles are smaller than the tolerance.
+void addSurface(const Places& places, const std::vector<Corners>& triangles, const std::vector<std::uint32_t>& numbers,
+                SolidMesh& solid)
+{
+  MeshPart part{PartKind::Surface, numbers.size(), {}};
+  for (const std::uint32_t t : numbers)
+    for (const std::uint32_t place : triangles[t])
+      part.bounds.extend(places.points[place]);
+  part.hole_share = 1.0;
+  solid.parts.other.push_back(part);
 }
 
 /// Closes the triangles with the numbers `open`.
@@ -169,6 +182,8 @@ void closeOpenParts(const std::vector<Corners>& triangles, const Places& places,
     open = std::move(left);
     if (open.empty())
       break;
+    if (is_last && surface.parts.empty())
+      addSurface(places, triangles, open, solid);
   }
   solid.mesh = mesh.get();
 }

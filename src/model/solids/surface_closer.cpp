@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -49,6 +51,9 @@ class SurfaceCloser
     addSeams(closing.tolerance);
     for (const Numbers& part : partsOf(unique_))
       closePart(part);
+    // A later attempt, which welds less of them, may need them.
+    if (!result_.open.empty() || unique_.empty())
+      result_.open.insert(result_.open.end(), collapsed_.begin(), collapsed_.end());
   }
 
   ClosedSurface take() { return std::move(result_); }
@@ -75,21 +80,25 @@ class SurfaceCloser
       welded_.push_back({representative_[t[0]], representative_[t[1]], representative_[t[2]]});
   }
 
-  /// Fills unique_ with the first of the triangles with the same corners, and copies_ with their number.
+  /// Fills unique_ with the first of the triangles with the same corners, and copies_ with all of them.
   void countCopies()
   {
     std::map<Corners, std::uint32_t> first_with;
-    copies_.assign(welded_.size(), 0);
+    copies_.resize(welded_.size());
     for (std::uint32_t t = 0; t < welded_.size(); ++t)
     {
       if (!hasDistinctCorners(welded_[t]))
+      {
+        if (hasDistinctCorners(result_.triangles[t]))
+          collapsed_.push_back(t);
         continue;
+      }
       Corners sorted = welded_[t];
       std::sort(sorted.begin(), sorted.end());
       const auto [first, is_new] = first_with.try_emplace(sorted, t);
       if (is_new)
         unique_.push_back(t);
-      ++copies_[first->second];
+      copies_[first->second].push_back(t);
     }
   }
 
@@ -103,7 +112,7 @@ class SurfaceCloser
     {
       unique_.push_back(static_cast<std::uint32_t>(welded_.size()));
       welded_.push_back(seam);
-      copies_.push_back(1);
+      copies_.push_back({unique_.back()});
       result_.triangles.push_back(seam);
       result_.roles.push_back(TriangleRole::Surface);
     }
@@ -149,7 +158,7 @@ class SurfaceCloser
     // Two volumes with a common wall have it twice. Without the wall they are one volume.
     Numbers without_walls;
     std::copy_if(part.begin(), part.end(), std::back_inserter(without_walls),
-                 [this](std::uint32_t t) { return copies_[t] % 2 == 1; });
+                 [this](std::uint32_t t) { return copies_[t].size() % 2 == 1; });
     const bool has_walls = !without_walls.empty() && without_walls.size() < part.size();
     const OrientedSurface outer = has_walls ? orient(points_, cornersOf(without_walls)) : OrientedSurface();
     const bool is_closed = once.boundary.empty() || once.even;
@@ -233,8 +242,13 @@ class SurfaceCloser
     Cycle cycle{members, surface.triangles};
     if (surface.even && !surface.boundary.empty())
       cycle.role = TriangleRole::Parity;
-    else
+    else if (closing_.fills_holes)
       cycle.holes = fillHoles(points_, surface.boundary);
+    else if (!surface.boundary.empty())
+    {
+      cycle.share = std::numeric_limits<double>::infinity();
+      return cycle;
+    }
     double area = 0.0;
     double added_area = 0.0;
     for (std::size_t i = 0; i < members.size(); ++i)
@@ -282,11 +296,11 @@ class SurfaceCloser
   /// Adds a cycle to the solid, unless too much of it would have to be added.
   void accept(const Cycle& cycle, const Numbers& part)
   {
-    if (!(cycle.share <= closing_.most_share) || (!closing_.fills_holes && !cycle.holes.empty()))
+    if (cycle.chain.empty() || !(cycle.share <= closing_.most_share))
     {
       for (const std::uint32_t t : part)
         if (t < input_count_)
-          result_.open.push_back(t);
+          result_.open.insert(result_.open.end(), copies_[t].begin(), copies_[t].end());
       report(part, PartKind::Surface, cycle);
       return;
     }
@@ -310,7 +324,7 @@ class SurfaceCloser
     for (const std::uint32_t t : part)
     {
       if (t < input_count_)
-        entry.triangles += copies_[t];
+        entry.triangles += copies_[t].size();
       for (const std::uint32_t place : result_.triangles[t])
         entry.bounds.extend(points_[place]);
     }
@@ -331,7 +345,8 @@ class SurfaceCloser
   const std::size_t input_count_;
   Numbers representative_;       // of each place
   std::vector<Corners> welded_;  // the corners of each triangle by their representatives
-  Numbers copies_;               // for the first of equal triangles: their number
+  std::vector<Numbers> copies_;  // for the first of equal triangles: all of them
+  Numbers collapsed_;            // triangles whose corners were welded to one another
   Numbers unique_;               // the first of each set of equal triangles
   ClosedSurface result_;
 };

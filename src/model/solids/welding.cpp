@@ -1,5 +1,6 @@
 #include "model/solids/welding.h"
 
+#include <algorithm>
 #include <numeric>
 #include <unordered_map>
 
@@ -18,6 +19,9 @@ using Eigen::Vector3d;
 
 /// In tolerances. A longer chain is a fine edge and not a place.
 constexpr double kLongestChain = 4.0;
+
+/// Points of a cell that are compared with their neighbours. A cell with more of them has fine edges and no corners.
+constexpr std::size_t kMostInCell = 64;
 }  // namespace
 
 Places placesOf(const std::vector<Vector3d>& vertices)
@@ -39,14 +43,20 @@ Places placesOf(const std::vector<Vector3d>& vertices)
 std::vector<std::uint32_t> weld(const std::vector<Vector3d>& points, const std::vector<bool>& used, double tolerance)
 {
   DisjointSets sets(points.size());
-  const double cell = 2.0 * tolerance;
+  Eigen::AlignedBox3d all;
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    if (used[i])
+      all.extend(points[i]);
+  // Numbers of cells are exact: the tolerance is at least a millionth of the extent.
+  const Vector3d origin = all.isEmpty() ? Vector3d::Zero() : all.min();
+  const double cell = std::max(2.0 * tolerance, 1e-9 * (all.isEmpty() ? 0.0 : all.diagonal().norm()));
   std::unordered_map<Vector3d, std::vector<std::uint32_t>, CoordinateHash> grid;
   for (std::uint32_t i = 0; i < points.size() && tolerance > 0.0; ++i)
   {
     if (!used[i])
       continue;
-    const Vector3d low = ((points[i].array() - tolerance) / cell).floor();
-    const Vector3d high = ((points[i].array() + tolerance) / cell).floor();
+    const Vector3d low = (((points[i] - origin).array() - tolerance) / cell).floor();
+    const Vector3d high = (((points[i] - origin).array() + tolerance) / cell).floor();
     for (double x = low.x(); x <= high.x(); ++x)
       for (double y = low.y(); y <= high.y(); ++y)
         for (double z = low.z(); z <= high.z(); ++z)
@@ -58,7 +68,9 @@ std::vector<std::uint32_t> weld(const std::vector<Vector3d>& points, const std::
             if ((points[other] - points[i]).norm() <= tolerance)
               sets.unite(other, i);
         }
-    grid[(points[i].array() / cell).floor()].push_back(i);
+    std::vector<std::uint32_t>& own = grid[((points[i] - origin).array() / cell).floor()];
+    if (own.size() < kMostInCell)
+      own.push_back(i);
   }
   std::vector<std::uint32_t> first(points.size());
   std::iota(first.begin(), first.end(), 0U);

@@ -8,19 +8,35 @@ namespace gpu_planning_scene::core
 void SceneChanger::changeSolids(const SceneChange& change)
 {
   PlanningScene& scene = result_.scene;
+  const auto require_mesh = [](const std::string& name, const std::vector<PlacedShape>& shapes)
+  {
+    if (!solidRuleOf(shapes))
+      throw Error("solids: '" + name + "' has no mesh; only meshes have a rule for their solid");
+  };
   std::map<std::string, SolidRule> links;
   for (const auto& [name, rule] : change.solids)
-    if (scene.robot->linkIndex(name) >= 0)
-      links[name] = rule;
-    else if (WorldObject* object = objects_.find(name))
-      setSolidRule(object->shapes, rule);
-    else if (AttachedObject* attached = attached_.find(name))
+  {
+    WorldObject* const object = objects_.find(name);
+    AttachedObject* const attached = attached_.find(name);
+    if (const int link = scene.robot->linkIndex(name); link >= 0)
     {
-      setSolidRule(attached->object.shapes, rule);
-      scene.scaleAttached(*attached);
+      require_mesh(name, scene.robot->links()[static_cast<std::size_t>(link)].shapes);
+      links[name] = rule;
+    }
+    else if (object != nullptr)
+    {
+      require_mesh(name, object->shapes);
+      setSolidRule(object->shapes, rule);
+    }
+    else if (attached != nullptr)
+    {
+      require_mesh(name, attached->object.shapes);
+      if (setSolidRule(attached->object.shapes, rule))
+        scene.scaleAttached(*attached);
     }
     else
       throw Error("solids: there is no link or object '" + name + "'");
+  }
   if (!links.empty())
     scene.robot = scene.robot->withSolids(links);
 }

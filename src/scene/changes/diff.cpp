@@ -221,13 +221,22 @@ void compareObjects(const PlanningScene& from, const PlanningScene& to, SceneCha
     change.objects.push_back(can_move ? move(*old, object) : addition(object));
   }
 }
-/// The rules of links that differ, and of all objects with an unusual rule: added objects would have the usual one.
-std::map<std::string, SolidRule> changedSolids(const PlanningScene& from, const PlanningScene& to)
+/// The rules of links that differ, and the unusual rules of added objects: without a rule, they would have the usual
+/// one. An object whose rule differs is added anew.
+std::map<std::string, SolidRule> changedSolids(const PlanningScene& from, const PlanningScene& to,
+                                               const SceneChange& change)
 {
   std::map<std::string, SolidRule> changed;
-  for (const auto& [id, rule] : solidRulesOf(to))
-    if (to.robot->linkIndex(id) < 0)
-      changed[id] = rule;
+  const auto add = [&changed](const ObjectChange& object)
+  {
+    const auto rule = solidRuleOf(object.shapes);
+    if (object.operation == Operation::Add && rule && *rule != SolidRule::Auto)
+      changed[object.id] = *rule;
+  };
+  for (const ObjectChange& object : change.objects)
+    add(object);
+  for (const AttachedChange& attached : change.state.attached)
+    add(attached.object);
   for (std::size_t i = 0; i < to.robot->links().size(); ++i)
   {
     const auto rule = solidRuleOf(to.robot->links()[i].shapes);
@@ -284,7 +293,7 @@ SceneChange diffOf(const PlanningScene& from, const PlanningScene& to)
       change.colors[id] = color;
   compareCarried(from, to, change);
   compareObjects(from, to, change);
-  change.solids = changedSolids(from, to);
+  change.solids = changedSolids(from, to, change);
   // Detaching an object needs the state of the robot. A full scene does not.
   const bool puts_back =
       std::any_of(change.state.attached.begin(), change.state.attached.end(),

@@ -59,9 +59,10 @@ std::vector<double> readLinkScale(const YamlValue& scene, const SceneReader& rea
 
 SolidRule readSolidRule(const YamlValue& value)
 {
+  const std::string name = value.text();
   try
   {
-    return solidRuleFrom(value.text());
+    return solidRuleFrom(name);
   }
   catch (const Error& error)
   {

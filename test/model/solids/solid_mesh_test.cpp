@@ -287,6 +287,29 @@ TEST(SolidMesh, FillsSmallHolesOnly)
   EXPECT_GT(open, 2U);
 }
 
+TEST(SolidMesh, IsFoundFarFromTheOriginAndForManySeparateTriangles)
+{
+  auto sliver = std::make_shared<Mesh>();
+  sliver->vertices = {{1e5, 0.0, 0.0}, {1e5, 0.0, 0.0}, {1e5, 0.0, 1e-10}};
+  sliver->triangles = {{0, 1, 2}};
+  EXPECT_FALSE(solidMeshOf(sliver)->hasSolid());
+
+  auto soup = std::make_shared<Mesh>();
+  std::mt19937_64 generator(kSeed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (std::uint32_t i = 0; i < 5000; ++i)
+  {
+    const Vector3d place(uniform(generator), uniform(generator), uniform(generator));
+    for (int corner = 0; corner < 3; ++corner)
+      soup->vertices.push_back(place + 0.01 * Vector3d(uniform(generator), uniform(generator), uniform(generator)));
+    soup->triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  soup->vertices[0] = {1e5, 0.0, 0.0};  // far away: the tolerances are long against the triangles
+  const auto solid = solidMeshOf(soup);
+  EXPECT_FALSE(solid->hasSolid());
+  EXPECT_GE(solid->parts.count(PartKind::Surface), 1U);
+}
+
 TEST(SolidMesh, OfTheRuleSurfaceHasNothingInside)
 {
   const auto solid = solidMeshOf(changed(cube(), [](Mesh& mesh) { mesh.solid = SolidRule::Surface; }));
