@@ -21,8 +21,8 @@ namespace
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kTriangles = 57000;
-constexpr std::size_t kQuickTriangles = 5000;
+constexpr std::size_t kPartTriangles = 57000;
+constexpr std::size_t kQuickPartTriangles = 5000;
 constexpr double kGap = 1e-5;  // metres, beyond the required distance
 
 /// A mesh, scaled so that its box is `size` long.
@@ -82,7 +82,7 @@ std::size_t measureRequiredDistances(const Settings& settings)
 {
   CsvTable table(settings.out, "required_distances.csv",
                  {"triangles", "size_m", "required_m", "poses", "p50_us", "max_us", "steps_a_pose", "of_no_distance"});
-  const std::shared_ptr<const Mesh> lump = literature::lump(settings.quick ? kQuickTriangles : kTriangles);
+  const std::shared_ptr<const Mesh> lump = literature::lump(settings.quick ? kQuickPartTriangles : kPartTriangles);
   const std::vector<double> sizes = {0.02, 0.04, 0.1};
   const std::size_t count = settings.quick ? 8 : 64;
   ProgressBar progress("required distances", sizes.size());

@@ -4,6 +4,7 @@
 #include <array>
 #include <chrono>
 #include <iterator>
+#include <system_error>
 
 #include "model/seconds_since.h"
 
@@ -125,8 +126,15 @@ std::future<CheckAnswer> CheckQueue::submit(CheckJob job, std::size_t count)
   waiting_.push_back(std::move(request));
   if (!thread_.joinable())
     thread_ = std::thread([this] { run(); });
-  if (relief_.make_checker && !relief_thread_.joinable())
-    relief_thread_ = std::thread([this] { relieve(); });
+  try
+  {
+    if (relief_.make_checker && !relief_thread_.joinable())
+      relief_thread_ = std::thread([this] { relieve(); });
+  }
+  catch (const std::system_error&)
+  {
+    // The other thread answers all requests.
+  }
   wake_.notify_all();
   return answer;
 }
@@ -182,6 +190,7 @@ void CheckQueue::relieve()
       Batch batch = take(first, kFewStates);
       lock.unlock();
       answer(batch, relief_);
+      batch.clear();  // perhaps the last owner of a scene, which must not be destroyed under the lock
       lock.lock();
     }
   }

@@ -37,6 +37,7 @@ std::shared_ptr<const Mesh> shell(double radius, std::size_t triangles)
                     });
   auto open = std::make_shared<Mesh>(*closed);
   open->triangles.resize(open->triangles.size() - 10);
+  open->solid = SolidRule::Surface;  // else the small hole would be filled
   return open;
 }
 
