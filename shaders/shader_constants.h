@@ -235,8 +235,8 @@
 #define STATE_HIT 1u
 #define STATE_UNDECIDED 2u
 
-// Kinds of the shape of an instance. SOLID_NONE is a mesh without a part that bounds a solid: it is a surface and has no
-// inside. All other kinds are solids.
+// Kinds of the shape of an instance. SOLID_NONE is a mesh without a part that bounds a solid: it is a surface and has
+// no inside. All other kinds are solids.
 #define SOLID_NONE 0u
 #define SOLID_BOX 1u
 #define SOLID_SPHERE 2u

@@ -28,8 +28,8 @@ using namespace gpu_planning_scene::core::benchmark;
 
 namespace
 {
-const std::vector<std::string> kParts = {"build",   "latency", "throughput", "stages",
-                                         "updates", "growth",  "meshes",     "distances", "kernels"};
+const std::vector<std::string> kParts = {"build",  "latency", "throughput", "stages", "updates",
+                                         "growth", "meshes",  "distances",  "kernels"};
 const std::vector<std::string> kQuickScenes = {"kr5_boxes", "ur5_cage", "arm_boxes", "arm_shelf"};
 constexpr std::size_t kQuickSceneCount = 2;
 

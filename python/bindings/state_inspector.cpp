@@ -82,8 +82,9 @@ py::array membersOf(const py::object& self, Member Clearance::*member, bool is_p
 
 void addResults(py::module_& module)
 {
-  py::class_<Contact>(module, "Contact", "A contact of two colliding bodies. Moving the second body along the "
-                            "normal by the depth ends their collision.")
+  py::class_<Contact>(module, "Contact",
+                      "A contact of two colliding bodies. Moving the second body along the "
+                      "normal by the depth ends their collision.")
       .def_readonly("bodies", &Contact::bodies, "Two body indices, ascending.")
       .def_property_readonly(
           "point", [](const Contact& contact) { return toPython(contact.point); },
@@ -91,8 +92,7 @@ void addResults(py::module_& module)
       .def_property_readonly(
           "normal", [](const Contact& contact) { return toPython(contact.normal); },
           "Unit length, in the planning frame, from the first body to the second, shape (3,).")
-      .def_readonly("depth", &Contact::depth,
-                    "Metres, above 0; for padded pairs it includes the required distance.");
+      .def_readonly("depth", &Contact::depth, "Metres, above 0; for padded pairs it includes the required distance.");
   py::class_<Clearances>(module, "Clearances",
                          "The clearances of states, in metres beyond the required distance. The arrays show its "
                          "memory.")

@@ -9,7 +9,8 @@ layout(std430, binding = BINDING_B) readonly buffer TriangleRoles { uint triangl
 uint roleOf(uint primitive)
 {
   const uint triangle = leaf_order[primitive];
-  return triangle_roles[triangle / ROLES_PER_WORD] >> (ROLE_BITS * (triangle % ROLES_PER_WORD)) & ((1u << ROLE_BITS) - 1u);
+  const uint word = triangle_roles[triangle / ROLES_PER_WORD];
+  return word >> (ROLE_BITS * (triangle % ROLES_PER_WORD)) & ((1u << ROLE_BITS) - 1u);
 }
 
 // The crossing of a triangle by the ray from the origin along +z: +1 or -1 by the direction of the triangle, 0 if the

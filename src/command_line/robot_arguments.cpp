@@ -72,15 +72,17 @@ std::map<std::string, SolidRule> solidsFrom(const CommandLine& arguments)
     const std::size_t equals = text.rfind('=');
     if (equals == std::string::npos || equals == 0)
       throw UsageError("--solid: '" + text + "' is not LINK=RULE");
+    SolidRule rule;
     try
     {
-      if (!solids.emplace(text.substr(0, equals), solidRuleFrom(text.substr(equals + 1))).second)
-        throw UsageError("--solid: '" + text.substr(0, equals) + "' is given twice");
+      rule = solidRuleFrom(text.substr(equals + 1));
     }
     catch (const Error& error)
     {
       throw UsageError(std::string("--solid: ") + error.what());
     }
+    if (!solids.emplace(text.substr(0, equals), rule).second)
+      throw UsageError("--solid: '" + text.substr(0, equals) + "' is given twice");
   }
   return solids;
 }

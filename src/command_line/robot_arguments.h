@@ -11,10 +11,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// The tools' options for the robot (--urdf, --srdf, --package, --planning, --unbounded-translation, --solid) and for the
-/// device
-/// (--device,
-/// --traversal, --max-batch, --tolerance).
+/// The tools' options for the robot (--urdf, --srdf, --package, --planning, --unbounded-translation, --solid) and for
+/// the device (--device, --traversal, --max-batch, --tolerance).
 std::vector<Option> robotOptions();
 /// --package alone, which is also one of robotOptions().
 Option packageOption();

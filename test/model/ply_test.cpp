@@ -1,5 +1,6 @@
 // PLY files with random types, byte orders and further values. The independent implementation is the writer below.
 
+#include <array>
 #include <cstring>
 #include <limits>
 #include <random>

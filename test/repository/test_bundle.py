@@ -11,7 +11,7 @@ import unittest
 
 from folders import SCRIPTS
 
-PROGRAMS = ("benchmark", "check_states", "generate_acm", "exactness", "literature", "planning_study", "stability")
+PROGRAMS = ("benchmark", "check_states", "generate_acm", "exactness", "literature", "planning_study", "read_mesh", "stability")
 
 
 class BundleTest(unittest.TestCase):

@@ -83,7 +83,7 @@ bool isConvexSolid(const CpuTree& tree)
 {
   if (!tree.mesh)
     return true;
-  if (componentsOf(tree).size() != 1 || !tree.solid->hasSolid())
+  if (componentsOf(tree).size() != 1 || !tree.solid->hasSolid() || !tree.solid->isAllSolid())
     return false;
   const double tolerance = 1e-9 * tree.half.norm();
   std::vector<std::uint32_t> stack;

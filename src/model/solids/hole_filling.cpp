@@ -21,7 +21,7 @@ using Eigen::Vector3d;
 using Rim = std::vector<std::uint32_t>;
 
 constexpr std::size_t kLongestRim = 128;  // for the filling of least area: some milliseconds
-constexpr double kMostSteps = 1e8;        // of all fillings of least area in a mesh: about a second
+constexpr double kMostFillingSteps = 1e8;        // of all fillings of least area in a mesh: about a second
 
 /// Walks along the reversed boundary edges. Whenever a place is reached for the second time, the walk since the first
 /// time is a loop. At a branch, the walk takes the target that is first in lexicographic order.
@@ -144,7 +144,7 @@ std::vector<FilledHole> fillHoles(const std::vector<Vector3d>& points, const std
     hole.rim = std::move(loop);
     const auto length = static_cast<double>(hole.rim.size());
     steps += length * length * length / 6.0;
-    if (hole.rim.size() <= kLongestRim && steps <= kMostSteps)
+    if (hole.rim.size() <= kLongestRim && steps <= kMostFillingSteps)
       fillByLeastArea(points, hole);
     else
       fillBySmallestCorner(points, hole);

@@ -137,7 +137,7 @@ void requireEqualLayouts(const LayoutPair& pair)
 
 std::vector<LayoutPair> moveItLayouts()
 {
-  constexpr std::size_t kOnlyOurs = 5;  // of a planning scene: from scene_revision on
+  constexpr std::size_t kOnlyOurs = 11;  // of a planning scene: from scene_revision on
   return {pairOf<PlanningSceneMessage, moveit_msgs::PlanningScene>(kOnlyOurs),
           pairOf<CollisionObject, moveit_msgs::CollisionObject>(),
           pairOf<AttachedCollisionObject, moveit_msgs::AttachedCollisionObject>(),

@@ -1,5 +1,4 @@
 #include "scene/changes/scene_changer.h"
-#include "scene/solid_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include "scene/frame.h"
 #include "scene/rigid_pose.h"
 #include "scene/shape_order.h"
+#include "scene/solid_rules.h"
 
 // Functions that all parts of a change use.
 namespace gpu_planning_scene::core

@@ -259,7 +259,7 @@ BallCover coverOf(const CpuTree& tree, const ShapeSamples& samples, double sagit
       cover.levels[level].push_back(certified(tree, samples, fit, sagitta));
     }
   }
-  if (hasSolid(tree) && (!tree.mesh || tree.solid->components.size() == 1))
+  if (hasSolid(tree) && (!tree.mesh || (tree.solid->components.size() == 1 && tree.solid->isAllSolid())))
     for (const auto& level : cover.levels)
       for (const CoverBall& ball : level)
         cover.thickness = std::max(cover.thickness, ball.inner);

@@ -1,6 +1,7 @@
 #include "collision/gpu/tree_build/gpu_trees.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <unordered_map>
 
 #include "gpu_planning_scene/error.h"
@@ -23,6 +24,16 @@ static_assert(static_cast<unsigned>(TriangleRole::Surface) == ROLE_SURFACE &&
                   static_cast<unsigned>(TriangleRole::Winding) == ROLE_WINDING &&
                   static_cast<unsigned>(TriangleRole::Parity) == ROLE_PARITY && ROLES_PER_WORD * ROLE_BITS == 32,
               "the shaders read roles");
+/// The roles and components of a shape's triangles. Those of a primitive are a closed mesh.
+std::shared_ptr<const SolidMesh> solidOf(const Tessellation& shape)
+{
+  if (shape.solid)
+    return shape.solid;
+  std::shared_ptr<const SolidMesh> solid = solidMeshOf(shape.mesh);
+  if (solid->mesh != shape.mesh)
+    throw std::logic_error("the tessellation of mesh '" + shape.mesh->name + "' lacks its solid; use tessellate()");
+  return solid;
+}
 }  // namespace
 
 void GpuTrees::setShapes(const std::vector<Tessellation>& shapes)
@@ -84,8 +95,7 @@ std::vector<GpuTrees::Key> GpuTrees::claim(const std::vector<Key>& keys, const s
     if (is_new)
     {
       entry->second.mesh = shapes[i].mesh;
-      // The triangles of a primitive are a closed mesh.
-      entry->second.solid = shapes[i].solid ? shapes[i].solid : solidMeshOf(shapes[i].mesh);
+      entry->second.solid = solidOf(shapes[i]);
       missing.push_back(keys[i]);
     }
   }
