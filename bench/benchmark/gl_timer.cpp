@@ -19,13 +19,13 @@ std::map<std::string, CommandTime> sums;
 std::map<GLuint, std::string> labels;  // of programs
 
 /// A command between two timestamps.
-struct Timed
+struct TimedCommand
 {
   GLuint before;
   GLuint after;
   std::string kind;
 };
-thread_local std::deque<Timed> running;
+thread_local std::deque<TimedCommand> running;
 thread_local std::vector<GLuint> unused;  // queries
 thread_local GLuint current_program = 0;
 
@@ -82,7 +82,7 @@ void collect()
 {
   while (!running.empty())
   {
-    const Timed command = running.front();
+    const TimedCommand command = running.front();
     GLint ended = 0;
     glGetQueryObjectiv(command.after, GL_QUERY_RESULT_AVAILABLE, &ended);
     if (ended == 0)
