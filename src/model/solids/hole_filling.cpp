@@ -20,8 +20,8 @@ namespace
 using Eigen::Vector3d;
 using Rim = std::vector<std::uint32_t>;
 
-constexpr std::size_t kLongestRim = 128;  // for the filling of least area: some milliseconds
-constexpr double kMostFillingSteps = 1e8;        // of all fillings of least area in a mesh: about a second
+constexpr std::size_t kLongestRim = 128;   // for the filling of least area: some milliseconds
+constexpr double kMostFillingSteps = 1e8;  // of all fillings of least area in a mesh: about a second
 
 /// Walks along the reversed boundary edges. Whenever a place is reached for the second time, the walk since the first
 /// time is a loop. At a branch, the walk takes the target that is first in lexicographic order.
