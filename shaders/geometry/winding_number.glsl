@@ -103,7 +103,7 @@ uint insideMesh(uint root, vec3 point, float error, inout uint iterations)
         const int crossed = role == ROLE_SURFACE ? 0 : crossing(c, error);
         certain = certain && crossed != UNCERTAIN_CROSSING;
         winding += role == ROLE_WINDING ? crossed : 0;
-        crossings += role == ROLE_PARITY ? uint(abs(crossed)) : 0u;
+        crossings += role == ROLE_PARITY && crossed != 0 ? 1u : 0u;
       }
     }
     if (certain && top > 0)

@@ -37,7 +37,8 @@ TEST(Stability, NoAnswerIsWrongInAnyFamily)
 TEST(Stability, NoticesErrorBoundsOfZero)
 {
   const ShaderFolder shaders;
-  shaders.define("UNIT_ROUNDOFF", "0.0");
+  // Not in the kernels that build trees: wrong trees are noticed before a state is checked.
+  shaders.replace("geometry/error_bounds.glsl", "const float u = UNIT_ROUNDOFF;", "const float u = 0.0;");
   expectFailure(shaders, "random rigid motions");
 }
 

@@ -58,7 +58,7 @@ Isometry3d touching(const Isometry3d& turn, const Vector3d& direction, double fa
   double low = 0.0;
   double high = far;
   const auto at = [&](double distance) { return Isometry3d(Translation3d(distance * direction) * turn); };
-  for (int i = 0; i < 15; ++i)
+  for (int i = 0; i < 60; ++i)
   {
     const double middle = 0.5 * (low + high);
     (within(at(middle)) ? low : high) = middle;
@@ -141,7 +141,9 @@ TEST(LongDistances, NeedAtMostTwentyTimesTheVisitsOfNone)
           const auto steps = [&](const Isometry3d& pose, bool expected)
           {
             scratch.steps = 0;
-            EXPECT_EQ(expected, pair.collide(0, Isometry3d::Identity(), 1, pose, distances[k], scratch));
+            EXPECT_EQ(expected, pair.collide(0, Isometry3d::Identity(), 1, pose, distances[k], scratch))
+                << "shape " << other.index() << ", size " << size << " m, required " << distances[k] << " m, at "
+                << pose.translation().norm() << " m, seed " << kSeed;
             most[k] = std::max(most[k], scratch.steps);
           };
           const Isometry3d touch =

@@ -236,10 +236,10 @@ TEST_F(ProofCacheTest, ProofsFromDiskAreThoseThatWereMade)
       for (const Proof proof : table->cells)
         ++cells[proof];
     }
-  EXPECT_EQ(tables, 3U);
+  EXPECT_EQ(tables, 4U);
   EXPECT_EQ(cells.size(), 3U) << "all kinds of cells";
   fill();
-  EXPECT_EQ(files().size(), 7U) << "four covers and three tables";
+  EXPECT_EQ(files().size(), 8U) << "four covers and four tables";
   expectSame(*without, *made(lift));
   ASSERT_TRUE(found(lift));
   expectSame(*without, *found(lift));
