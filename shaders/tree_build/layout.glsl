@@ -19,9 +19,9 @@ void place(Cluster c, uint at, uint start, uint first_pair_node)
     leaf_order[start] = primitive_base + c.reference;
   else
     pair_starts[c.reference] = start;
-  const vec3 center = 0.5 * c.low + 0.5 * c.high;
+  precise const vec3 center = 0.5 * c.low + 0.5 * c.high;
   // Rounded outwards: the half extents cover both corners, whatever the rounding of the centre.
-  const vec3 half_extent = max(c.high - center, center - c.low) * (1.0 + 4.0 * UNIT_ROUNDOFF) + 1e-37;
+  precise const vec3 half_extent = max(c.high - center, center - c.low) * (1.0 + 4.0 * UNIT_ROUNDOFF) + 1e-37;
   nodes[NODE_TEXELS * at] = uvec4(floatBitsToUint(center), leaf ? start : first_pair_node + 2u * c.reference);
   nodes[NODE_TEXELS * at + 1u] = uvec4(floatBitsToUint(half_extent), leaf ? c.count : 0u);
 }

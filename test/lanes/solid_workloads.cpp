@@ -283,7 +283,7 @@ void main()
     return buffer;
   };
   const Buffer order = bound(leaf_order, BINDING_A);
-  const Buffer all_count = bound(std::vector<std::uint32_t>(4 * kPoints / 32, ~0U), BINDING_B);
+  const Buffer all_count = bound(std::vector<std::uint32_t>(4 * kPoints / ROLES_PER_WORD, 0x55555555U), BINDING_B);
   const Buffer input = bound(points, BINDING_C);
   Buffer output(kPoints * sizeof(std::uint32_t));
   output.bindStorage(BINDING_D);
