@@ -80,9 +80,15 @@ class TreeVisit
   {
     Eigen::AlignedBox3d bounds;
     const std::uint32_t at = index - trees_.region.first_node;
-    if (at >= trees_.nodes.size() || depth > trees_.region.depth)
+    if (at >= trees_.nodes.size())
     {
       fault_ = "a node is at no place of its tree";
+      return bounds;
+    }
+    if (depth > trees_.region.depth)
+    {
+      fault_ = "a node is at level " + std::to_string(depth) + ", more than the " +
+               std::to_string(trees_.region.depth) + " levels that were counted";
       return bounds;
     }
     const Node& node = trees_.nodes[at];

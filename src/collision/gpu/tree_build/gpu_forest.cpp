@@ -238,10 +238,13 @@ std::uint32_t GpuForestBuilder::mergeClusters(std::size_t count, std::size_t mes
   if (remaining != mesh_count)
     throw Error("the GPU built " + std::to_string(remaining) + " subtrees instead of " + std::to_string(mesh_count) +
                 " trees: its compute shaders do not work as OpenGL specifies; choose another device");
-  std::uint32_t merging = 0;
-  while (merging < BUILD_ROUNDS && rounds[merging * ROUND_STRIDE + ROUND_PAIRS] > 0)
-    ++merging;
-  return merging;
+  // A round without pairs may come before one with pairs: two nearest neighbours need not agree on a device whose
+  // rounding varies.
+  std::uint32_t levels = 0;
+  for (std::uint32_t round = 0; round < BUILD_ROUNDS; ++round)
+    if (rounds[round * ROUND_STRIDE + ROUND_PAIRS] > 0)
+      levels = round + 1;
+  return levels;
 }
 
 void GpuForestBuilder::layOut(std::size_t mesh_count, std::uint32_t leaf_size, const ForestRegion& region,
