@@ -248,7 +248,7 @@
 // The GPU tests a mesh for containment only if it has at most this many connected components. Otherwise the state
 // becomes undecided.
 #define MAX_COMPONENTS 1024
-// What a triangle of a mesh counts for (TriangleRole in gpu_planning_scene/solids.h), in ROLE_BITS bits.
+// Roles of the triangles of a mesh (TriangleRole in gpu_planning_scene/solids.h), in ROLE_BITS bits.
 #define ROLE_SURFACE 0u
 #define ROLE_WINDING 1u
 #define ROLE_PARITY 2u

@@ -41,7 +41,7 @@ struct MeshParts
   std::size_t count(PartKind kind) const;
 };
 
-/// What a triangle of a mesh counts for.
+/// The way in which a triangle of a mesh counts for the solid.
 enum class TriangleRole : std::uint8_t
 {
   Surface,  ///< a surface alone

@@ -5,7 +5,7 @@
 layout(std430, binding = BINDING_A) readonly buffer LeafOrder { uint leaf_order[]; };
 layout(std430, binding = BINDING_B) readonly buffer TriangleRoles { uint triangle_roles[]; };  // ROLE_BITS each
 
-// What the triangle at this place of the leaf order counts for: ROLE_*.
+// Returns the role (ROLE_*) of the triangle at this place of the leaf order.
 uint roleOf(uint primitive)
 {
   const uint triangle = leaf_order[primitive];

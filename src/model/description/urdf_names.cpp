@@ -27,7 +27,7 @@ bool hasPrefix(const std::string& name)
 const Names kPlaces = {"link",    "joint",  "collision", "geometry", "box",   "sphere", "cylinder", "mesh",
                        "capsule", "origin", "pose",      "parent",   "child", "axis",   "limit",    "mimic"};
 
-/// What an element may hold.
+/// The names that an element may hold.
 struct ElementKind
 {
   Names once;  ///< children that urdfdom reads once

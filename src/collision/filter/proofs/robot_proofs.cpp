@@ -38,7 +38,7 @@ bool forEachUntil(const Stopped& stopped, const Stopped& paused, std::size_t cou
                 }
                 catch (const ProofsStopped&)
                 {
-                  // What the other threads have made is kept.
+                  // The proofs that the other threads have made are kept.
                 }
                 is_complete = false;
               });
