@@ -175,7 +175,7 @@ class RobotModel(Case):
                                      RAIL_XACRO)
 
     def test_xacro_finds_the_packages_of_the_call(self):
-        find = "for f in $(echo $ROS_PACKAGE_PATH | tr ':' ' '); do cat $f/rail.xml 2> /dev/null; done"
+        find = "for f in $(echo $ROS_PACKAGE_PATH | tr ':' ' '); do cat $f/rail.xml 2> /dev/null; done; true"
         with tempfile.TemporaryDirectory() as folder:
             urdf = pathlib.Path(folder, "rail.urdf.xacro")
             urdf.write_text(RAIL_XACRO, encoding="utf-8")

@@ -67,6 +67,7 @@ class Soak : public RunningNode
       }
       latencies.add(std::chrono::duration<double>(Clock::now() - start).count());
       judge->add(check, acknowledged);
+      ++answered;
       ros::WallDuration(0.005).sleep();
     }
   }
@@ -181,8 +182,15 @@ class Soak : public RunningNode
     return at(from) == at(to) ? 0.0 : *std::min_element(at(from), at(to));
   }
 
+  /// Whether enough has happened for the test to mean something.
+  bool hasHappenedEnough()
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    return answered > 30 && changes > 50 && killed > 5 && losses > 0.0;
+  }
+
   std::atomic<bool> done{false};
-  std::atomic<int> requests{0}, lost{0}, busy{0}, failed{0}, changes{0}, refused{0}, taken{0}, killed{0};
+  std::atomic<int> requests{0}, answered{0}, lost{0}, busy{0}, failed{0}, changes{0}, refused{0}, taken{0}, killed{0};
   std::atomic<std::uint64_t> newest_change{0};  ///< revision of the newest acknowledged change
   std::unique_ptr<AnswerJudge> judge;
   std::mutex mutex;
@@ -224,6 +232,9 @@ TEST_F(Soak, NoAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
   clients.emplace_back([this] { askWrongly(300); });
   clients.emplace_back([this] { killClients(); });
   ros::WallDuration(seconds).sleep();
+  // A slow machine, with sanitizers and llvmpipe, gets more time. The test's time limit allows it.
+  for (double more = 0.0; more < 2.0 * seconds + 100.0 && !hasHappenedEnough(); more += 0.5)
+    ros::WallDuration(0.5).sleep();
   done = true;
   for (std::thread& client : clients)
     client.join();
@@ -242,7 +253,7 @@ TEST_F(Soak, NoAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
   EXPECT_EQ(0, lost) << "requests without a reply";
   EXPECT_EQ(0, failed) << "right requests that were refused, and not for want of time";
   EXPECT_EQ(0, taken) << "wrong requests that were not refused";
-  EXPECT_GT(judge->answers, 30u);  // low, for runs with sanitizers on llvmpipe
+  EXPECT_GT(judge->answers, 30u);
   EXPECT_GT(changes, 50);
   EXPECT_GT(killed, 5);
   EXPECT_GT(losses, 0.0) << "the test is to lose devices";

@@ -54,7 +54,7 @@ class GpuForest : public testing::Test
     for (const auto* meshes : {&robot, &world})
       for (const auto& mesh : *meshes)
       {
-        problem_.tessellations.push_back({mesh, 0.0});
+        problem_.tessellations.push_back(tessellate(mesh));
         problem_.shapes.emplace_back(mesh);
         auto& instances = meshes == &robot ? problem_.robot : problem_.world;
         instances.push_back(
