@@ -193,7 +193,15 @@ struct TwoBoxes
   double turns;             // the range of each of the three angles of the moving box
   bool has_chain;           // between the boxes, see chainThatReturns
   double mesh_from_origin;  // metres: the moving box is a mesh this far from the origin of its frame; 0: a primitive
+  std::string joint = "";   // planar or floating: moves the box instead of six joints with one variable each
 };
+
+/// The box that one planar or floating joint moves. The plane is at the height of the other box.
+std::string boxOnOneJoint(const std::string& type, const std::string& box)
+{
+  return movedLink("box", "fixed", "type='" + type + "'><origin xyz='0 0 0.3' rpy='0.1 0 0.2'/><axis xyz='0 0 1'/>",
+                   box);
+}
 
 /// A box that moves freely around another one: the boxes of the kernel's test are the shapes themselves.
 TestScene twoBoxes(const TwoBoxes& kind)
@@ -202,26 +210,29 @@ TestScene twoBoxes(const TwoBoxes& kind)
   std::string urdf =
       "<robot name='two_boxes'><link name='fixed'><collision><origin xyz='0.2 -0.1 0.3'/>"
       "<geometry><box size='0.3 0.2 0.1'/></geometry></collision></link>";
+  const std::string box =
+      "<collision><origin xyz='0.05 0.1 -0.02'/><geometry><box size='0.25 0.15 0.05'/></geometry></collision>";
   std::string parent = "fixed";
   if (kind.has_chain)
   {
     urdf += chainThatReturns();
     parent = "tip";
   }
+  if (!kind.joint.empty())
+    urdf += boxOnOneJoint(kind.joint, box);
   for (const char* axis : {"1 0 0", "0 1 0", "0 0 1"})
     for (const char* type : {"prismatic", "revolute"})
     {
+      if (!kind.joint.empty())
+        continue;
       const std::string link = std::string(type) + axis;
       // The kernel's bounds grow with the travel of prismatic joints, so it is short here.
       const std::string limit = std::string(type) == "prismatic" ? "0.5" : "3";
       const bool is_box = link == "revolute0 0 1" && kind.mesh_from_origin == 0.0;
-      urdf += movedLink(
-          link, parent,
-          "type='" + std::string(type) + "'><axis xyz='" + axis + "'/><limit lower='-" + limit + "' upper='" + limit +
-              "' effort='1' velocity='1'/>",
-          is_box
-              ? "<collision><origin xyz='0.05 0.1 -0.02'/><geometry><box size='0.25 0.15 0.05'/></geometry></collision>"
-              : "");
+      urdf += movedLink(link, parent,
+                        "type='" + std::string(type) + "'><axis xyz='" + axis + "'/><limit lower='-" + limit +
+                            "' upper='" + limit + "' effort='1' velocity='1'/>",
+                        is_box ? box : "");
       parent = link;
     }
   urdf += "</robot>";
@@ -240,7 +251,8 @@ TestScene twoBoxes(const TwoBoxes& kind)
   for (const Variable& variable : scene->robot->variables())
   {
     const bool is_of_chain = variable.name.find("turn") != std::string::npos;
-    const bool is_angle = variable.name.find("revolute") != std::string::npos;
+    const bool is_angle =
+        variable.name.find("revolute") != std::string::npos || variable.name.find("theta") != std::string::npos;
     const double range = is_of_chain ? 3.0 : is_angle ? kind.turns : 0.5;
     made.lower.push_back(-range);
     made.upper.push_back(range);
@@ -275,7 +287,9 @@ INSTANTIATE_TEST_SUITE_P(Robots, BoxesOfSelfPairs,
                                          TwoBoxes{"nearly_parallel", 1e-6, false, 0.0},
                                          TwoBoxes{"turned", 3.0, false, 0.0},
                                          TwoBoxes{"after_a_long_chain", 3.0, true, 0.0},
-                                         TwoBoxes{"mesh_far_from_its_origin", 3.0, false, 30.0}),
+                                         TwoBoxes{"mesh_far_from_its_origin", 3.0, false, 30.0},
+                                         TwoBoxes{"on_a_planar_joint", 3.0, false, 0.0, "planar"},
+                                         TwoBoxes{"on_a_floating_joint", 3.0, false, 0.0, "floating"}),
                          [](const auto& tested) { return tested.param.name; });
 }  // namespace
 }  // namespace gpu_planning_scene::core

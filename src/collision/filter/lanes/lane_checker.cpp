@@ -54,20 +54,6 @@ void LaneChecker::useScene(Scratch& scratch) const
   scratch.records.assign(scene_->pairCount(), PairRecord{});
 }
 
-/// Sets the poses that the kernel does not compute. Returns false if the kernel must not be called.
-bool LaneChecker::fillGiven(const double* states, std::size_t count, Scratch& scratch, float* given) const
-{
-  if (!scene_->hasGivenFrames())
-    return true;
-  bool are_near = true;
-  for (std::size_t lane = 0; lane < lanes::kLanes; ++lane)
-  {
-    robot_->linkPoses(states + std::min(lane, count - 1) * robot_->variables().size(), scratch.poses.data());
-    are_near = scene_->fillGiven(scratch.poses.data(), static_cast<int>(lane), given) && are_near;
-  }
-  return are_near;
-}
-
 const float* LaneChecker::kernelMargins(const double* const* margins, std::size_t count, Scratch& scratch) const
 {
   if (!margins)
@@ -126,24 +112,17 @@ void LaneChecker::check(const double* states, std::size_t count, std::size_t row
   useScene(scratch);
   const lanes::Scratch kernel_scratch = scratch.buffers.of(*scene_);
   scratch.poses.resize(robot_->links().size());
-  const bool is_kernel_used = fillGiven(states, count, scratch, kernel_scratch.given);
   lanes::Block block;
   scratch.tally.begin(block);
-  if (is_kernel_used)
-    kernel_(scene_->model(), states, static_cast<int>(count), kernelMargins(margins, count, scratch), kernel_scratch,
-            block);
+  kernel_(scene_->model(), states, static_cast<int>(count), kernelMargins(margins, count, scratch), kernel_scratch,
+          block);
   const std::uint64_t begin = block.clock ? block.clock() : 0;
   for (std::size_t lane = 0; lane < count; ++lane)
   {
     const double* const state = states + lane * width;
     const double* const margins_of_state = margins ? margins[lane] : nullptr;
     std::optional<BodyPair> pair;
-    if (!is_kernel_used)
-    {
-      robot_->linkPoses(state, scratch.poses.data());
-      pair = traversal_.firstCollision(scratch.poses.data(), scratch.exact, margins_of_state);
-    }
-    else if (block.proof[lane] == Proof::Colliding)
+    if (block.proof[lane] == Proof::Colliding)
       pair = bodiesOf(*problem_, scene_->instancesOf(block.pair[lane]));
     else if (block.proof[lane] == Proof::None)
       pair = decideOpenPairs(state, kernel_scratch.open + lane * scene_->pairCount(),
@@ -154,7 +133,6 @@ void LaneChecker::check(const double* states, std::size_t count, std::size_t row
       result.colliding[row + lane] = *pair;
     }
   }
-  if (is_kernel_used)
-    scratch.tally.add(block, count, block.clock ? block.clock() - begin : 0);
+  scratch.tally.add(block, count, block.clock ? block.clock() - begin : 0);
 }
 }  // namespace gpu_planning_scene::core

@@ -75,7 +75,6 @@ class LaneChecker
 
  private:
   void useScene(Scratch& scratch) const;
-  bool fillGiven(const double* states, std::size_t count, Scratch& scratch, float* given) const;
   const float* kernelMargins(const double* const* margins, std::size_t count, Scratch& scratch) const;
   double marginOf(std::uint32_t pair, const double* margins) const;
   std::optional<BodyPair> decideOpenPairs(const double* state, std::uint32_t* open, std::size_t open_count,

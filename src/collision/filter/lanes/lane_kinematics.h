@@ -59,9 +59,37 @@ inline Floats jointValues(const Frame& frame, const Model& model, const double* 
   return values;
 }
 
+/// Writes the rotation of a frame of kind Turned. A quaternion that is too short for float arithmetic gives NaN, which
+/// proves nothing.
+inline void turn(const Frame& frame, const Model& model, const double* states, int count, Floats* pose)
+{
+  constexpr float kLeastSquaredNorm = 1e-12F;
+  Floats q[4];
+  for (int lane = 0; lane < kLanes; ++lane)
+  {
+    const double* state = states + (lane < count ? static_cast<unsigned>(lane) : 0U) * model.width;
+    for (int k = 0; k < 4; ++k)
+      q[k][lane] = static_cast<float>(state[frame.variable + k]);
+  }
+  const Floats squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  const Floats scale = squared > kLeastSquaredNorm ? 2.0F / squared : all(__builtin_nanf(""));
+  const Floats x = scale * q[0];
+  const Floats y = scale * q[1];
+  const Floats z = scale * q[2];
+  pose[0] = 1.0F - (y * q[1] + z * q[2]);
+  pose[1] = x * q[1] - z * q[3];
+  pose[2] = x * q[2] + y * q[3];
+  pose[4] = x * q[1] + z * q[3];
+  pose[5] = 1.0F - (x * q[0] + z * q[2]);
+  pose[6] = y * q[2] - x * q[3];
+  pose[8] = x * q[2] - y * q[3];
+  pose[9] = y * q[2] + x * q[3];
+  pose[10] = 1.0F - (x * q[0] + y * q[1]);
+  pose[3] = pose[7] = pose[11] = all(0.0F);
+}
+
 /// Writes the pose of a frame relative to its parent.
-inline void relativePose(const Frame& frame, const float* given, const Model& model, const double* states, int count,
-                         Floats* pose)
+inline void relativePose(const Frame& frame, const Model& model, const double* states, int count, Floats* pose)
 {
   for (int k = 0; k < 12; ++k)
     pose[k] = all(frame.constant[k]);
@@ -86,9 +114,8 @@ inline void relativePose(const Frame& frame, const float* given, const Model& mo
         pose[k] += value * frame.first[k];
       break;
     }
-    case FrameKind::Given:
-      for (std::size_t k = 0; k < 12; ++k)
-        pose[k] = load(group(given, k));
+    case FrameKind::Turned:
+      turn(frame, model, states, count, pose);
       break;
   }
 }
@@ -101,7 +128,7 @@ inline void placeFrames(const Model& model, const double* states, int count, con
     const Frame& frame = model.frames[i];
     float* placed = group(scratch.frames, 12 * i);
     Floats relative[12];
-    relativePose(frame, group(scratch.given, 12 * i), model, states, count, relative);
+    relativePose(frame, model, states, count, relative);
     if (frame.parent < 0)
     {
       for (std::size_t k = 0; k < 12; ++k)

@@ -23,10 +23,11 @@ enum class FrameKind : std::uint8_t
   Fixed,      ///< pose: constant
   Revolute,   ///< pose: constant + cos(value) * first + sin(value) * second
   Prismatic,  ///< pose: constant + value * first
-  Given       ///< planar and floating joints: the caller computes the pose
+  Turned      ///< pose: the rotation of a quaternion, whose x, y, z, w are `variable` and the next three
 };
 
-/// A frame that a joint moves relative to its parent frame. Poses are rows of 3x4 matrices.
+/// A frame that a joint moves relative to its parent frame. A planar joint has three of them, two that slide and one
+/// that turns; a floating joint has four. Poses are rows of 3x4 matrices.
 struct Frame
 {
   FrameKind kind;
@@ -207,7 +208,6 @@ constexpr int kBoxTest = 0;
 struct Scratch
 {
   float* frames;         ///< of each frame: 12 numbers in all lanes
-  float* given;          ///< the same, relative to the parent, for frames of kind Given; the caller fills it
   float* centers;        ///< of each instance: the centre of its enclosing ball in all lanes; then of each cluster
   float* balls;          ///< of each instance: the coordinates of its outer and inner balls in one lane
   float* boxes;          ///< of each instance: its box in all lanes

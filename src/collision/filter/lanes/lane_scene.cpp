@@ -28,9 +28,13 @@ constexpr double kSumError = 12.0 * kUnit;      // of a transformed point, times
 constexpr double kDistanceError = 32.0 * kUnit;
 constexpr double kAxisError = 16.0 * kUnit;  // of an axis of a box: a rounded constant, transformed
 
-constexpr double kLargestLaneAngle = 1e4;  // radians: a larger angle modulo 2 pi is not accurate
-constexpr double kLargestGiven = 32.0;     // metres: distance of a planar or floating joint's frame from the origin
-constexpr std::size_t kGroup = 8;          // world pairs of a group
+constexpr double kConstantError = 4.0 * kUnit;     // of a vector of length 1, by a rounded constant rotation
+constexpr double kQuaternionError = 64.0 * kUnit;  // of a vector of length 1 that a quaternion rotates
+
+constexpr double kLargestLaneAngle = 1e4;    // radians: a larger angle modulo 2 pi is not accurate
+constexpr double kLargestBaseSlide = 32.0;   // metres, along each direction of a planar or floating joint
+constexpr double kLargestCoefficient = 1e6;  // of a quaternion
+constexpr std::size_t kGroup = 8;            // world pairs of a group
 
 Matrix3d crossProductMatrix(const Vector3d& a)
 {
@@ -88,7 +92,7 @@ LaneScene::LaneScene(std::shared_ptr<const RobotModel> robot, const CollisionPro
 /// Links that are rigidly connected share a frame.
 void LaneScene::addFrames()
 {
-  largest_.assign(robot_->variables().size(), std::numeric_limits<double>::max());
+  limits_.resize(robot_->variables().size());
   for (std::size_t link = 0; link < robot_->links().size(); ++link)
   {
     const int number = robot_->links()[link].parent_joint;
@@ -105,62 +109,117 @@ void LaneScene::addFrames()
       in_frame_.push_back(origin);
       continue;
     }
-    frame_of_link_.push_back(addFrame(joint, static_cast<int>(link), has_parent ? frame_of_link_[parent] : -1, origin));
+    frame_of_link_.push_back(addFramesOf(joint, has_parent ? frame_of_link_[parent] : -1, origin));
     in_frame_.push_back(Isometry3d::Identity());
   }
 }
 
-/// Adds the frame that a joint moves. `origin`: the joint's frame in the parent frame.
-int LaneScene::addFrame(const Joint& joint, int link, int parent, const Isometry3d& origin)
+/// Adds the frames that a joint moves, and returns the last of them. `origin`: the joint's frame in the parent frame.
+int LaneScene::addFramesOf(const Joint& joint, int parent, const Isometry3d& origin)
 {
+  const int v = joint.first_variable;
+  const Isometry3d here = Isometry3d::Identity();
+  // The position of a base is relative to the point that is nearest to the origin of coordinates.
+  const Vector3d nearest =
+      parent < 0 ? Vector3d(origin.linear().transpose() * -origin.translation()) : Vector3d::Zero();
+  const auto slide_base = [&](const Vector3d& axis, int variable, const Isometry3d& from) {
+    parent = addSlide({axis, variable, nearest.dot(axis), kLargestBaseSlide}, parent, from);
+  };
+  switch (joint.type)
+  {
+    case JointType::Revolute:
+    case JointType::Continuous:
+      return addTurn(joint, v, parent, origin);
+    case JointType::Prismatic:
+      return addSlide({joint.axis, v, 0.0, std::numeric_limits<double>::max(), joint.multiplier, joint.offset}, parent,
+                      origin);
+    case JointType::Planar:
+    {
+      const Matrix3d directions = planarDirections(joint.axis);
+      slide_base(directions.col(0), v, origin);
+      slide_base(directions.col(1), v + 1, here);
+      return addTurn(joint, v + 2, parent, here);
+    }
+    case JointType::Floating:
+      slide_base(Vector3d::UnitX(), v, origin);
+      slide_base(Vector3d::UnitY(), v + 1, here);
+      slide_base(Vector3d::UnitZ(), v + 2, here);
+      return addQuaternion(v + 3, parent);
+    case JointType::Fixed:
+      break;
+  }
   lanes::Frame frame{};
   frame.kind = lanes::FrameKind::Fixed;
+  writePose(origin, frame.constant);
+  return addFrame(frame, parent, origin.translation().norm(), kConstantError);
+}
+
+/// Adds a frame. `step`: the largest distance of its origin from the parent's; `turn`: the error of its rotation, of a
+/// vector of length 1.
+int LaneScene::addFrame(lanes::Frame frame, int parent, double step, double turn)
+{
   frame.parent = parent;
-  frame.variable = joint.first_variable;
+  const FrameError before = parent < 0 ? FrameError() : frame_errors_[static_cast<std::size_t>(parent)];
+  frames_.push_back(frame);
+  frame_errors_.push_back({step, before.largest_distance + step, before.rotation + turn + kProductError,
+                           before.position + before.rotation * step + kSumError * (before.largest_distance + step)});
+  return static_cast<int>(frames_.size()) - 1;
+}
+
+/// A frame that turns about the joint's axis.
+int LaneScene::addTurn(const Joint& joint, int variable, int parent, const Isometry3d& origin)
+{
+  lanes::Frame frame{};
+  frame.kind = lanes::FrameKind::Revolute;
+  frame.variable = variable;
   frame.multiplier = joint.multiplier;
   frame.offset = joint.offset;
-  writePose(origin, frame.constant);
-  const FrameError before = parent < 0 ? FrameError() : frame_errors_[static_cast<std::size_t>(parent)];
-  double step = origin.translation().norm();
-  double turn = 4.0 * kUnit;
   const Matrix3d rotation = origin.linear();
-  if (joint.type == JointType::Revolute || joint.type == JointType::Continuous)
-  {
-    frame.kind = lanes::FrameKind::Revolute;
-    const Matrix3d along = joint.axis * joint.axis.transpose();
-    writeRotation(rotation * along, frame.constant);
-    writeRotation(rotation * (Matrix3d::Identity() - along), frame.first);
-    writeRotation(rotation * crossProductMatrix(joint.axis), frame.second);
-    double& largest = largest_[static_cast<std::size_t>(joint.first_variable)];
-    largest =
-        std::min(largest, (kLargestLaneAngle - std::abs(joint.offset)) / std::max(1.0, std::abs(joint.multiplier)));
-    turn = kTurnError;
-  }
-  else if (joint.type == JointType::Prismatic)
-  {
-    frame.kind = lanes::FrameKind::Prismatic;
-    Isometry3d slide = Isometry3d::Identity();
-    slide.translation() = rotation * joint.axis;
-    writePose(slide, frame.first);
-    const Variable& variable = robot_->variables()[static_cast<std::size_t>(joint.first_variable)];
-    double& largest = largest_[static_cast<std::size_t>(joint.first_variable)];
-    largest = std::min(largest, std::max(std::abs(variable.lower), std::abs(variable.upper)) + 1e-6);
-    step += std::abs(joint.multiplier) * largest + std::abs(joint.offset);
-  }
-  FrameError error{step, before.largest_distance + step, before.rotation + turn + kProductError,
-                   before.position + before.rotation * step + kSumError * (before.largest_distance + step)};
-  const bool given = joint.type == JointType::Planar || joint.type == JointType::Floating;
-  if (given)
-  {
-    frame.kind = lanes::FrameKind::Given;
-    frame.parent = -1;
-    error = {kLargestGiven, kLargestGiven, kUnit * 4.0, kSumError * kLargestGiven};
-  }
-  has_given_ = has_given_ || given;
-  link_of_given_.push_back(given ? link : -1);
-  frames_.push_back(frame);
-  frame_errors_.push_back(error);
-  return static_cast<int>(frames_.size()) - 1;
+  const Matrix3d along = joint.axis * joint.axis.transpose();
+  writePose(origin, frame.constant);
+  writeRotation(rotation * along, frame.constant);
+  writeRotation(rotation * (Matrix3d::Identity() - along), frame.first);
+  writeRotation(rotation * crossProductMatrix(joint.axis), frame.second);
+  limit(variable, {0.0, (kLargestLaneAngle - std::abs(joint.offset)) / std::max(1.0, std::abs(joint.multiplier))});
+  return addFrame(frame, parent, origin.translation().norm(), kTurnError);
+}
+
+/// A frame that slides along an axis. Its position is computed relative to that for the slide's middle.
+int LaneScene::addSlide(const Slide& slide, int parent, const Isometry3d& origin)
+{
+  const Variable& variable = robot_->variables()[static_cast<std::size_t>(slide.variable)];
+  const double farthest = std::max(std::abs(variable.lower - slide.middle), std::abs(variable.upper - slide.middle));
+  const double most = std::min(slide.most, farthest + 1e-6);
+  const Vector3d axis = origin.linear() * slide.axis;
+  Isometry3d middle = origin;
+  middle.translation() += (slide.multiplier * slide.middle + slide.offset) * axis;
+  lanes::Frame frame{};
+  frame.kind = lanes::FrameKind::Prismatic;
+  frame.variable = slide.variable;
+  frame.multiplier = slide.multiplier;
+  frame.offset = -slide.multiplier * slide.middle;
+  writePose(middle, frame.constant);
+  writePose(Eigen::Isometry3d(Eigen::Translation3d(axis)), frame.first);
+  limit(slide.variable, {slide.middle, most});
+  return addFrame(frame, parent, middle.translation().norm() + std::abs(slide.multiplier) * most, kConstantError);
+}
+
+/// A frame that turns by a quaternion, whose x is the variable.
+int LaneScene::addQuaternion(int variable, int parent)
+{
+  lanes::Frame frame{};
+  frame.kind = lanes::FrameKind::Turned;
+  frame.variable = variable;
+  for (int k = 0; k < 4; ++k)
+    limit(variable + k, {0.0, kLargestCoefficient});
+  return addFrame(frame, parent, 0.0, kQuaternionError);
+}
+
+/// Variables of several joints, which are mimicked, have the middle 0.
+void LaneScene::limit(int variable, const Limit& limit)
+{
+  Limit& known = limits_[static_cast<std::size_t>(variable)];
+  known = {limit.middle, std::min(known.most, limit.most)};
 }
 
 static_assert(kCoverBalls.size() == lanes::kLevels + 1, "levels of the kernel");
@@ -432,27 +491,9 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
 
 bool LaneScene::isWithinBounds(const double* state) const
 {
-  for (std::size_t v = 0; v < largest_.size(); ++v)
-    if (!(std::abs(state[v]) <= largest_[v]))
+  for (std::size_t v = 0; v < limits_.size(); ++v)
+    if (!(std::abs(state[v] - limits_[v].middle) <= limits_[v].most))
       return false;
-  return true;
-}
-
-bool LaneScene::fillGiven(const Isometry3d* link_poses, int lane, float* given) const
-{
-  for (std::size_t f = 0; f < frames_.size(); ++f)
-  {
-    if (link_of_given_[f] < 0)
-      continue;
-    Isometry3d pose = link_poses[link_of_given_[f]];
-    pose.translation() -= origin_;
-    if (!(pose.translation().norm() <= kLargestGiven))
-      return false;
-    float rows[12];
-    writePose(pose, rows);
-    for (std::size_t k = 0; k < 12; ++k)
-      given[(f * 12 + k) * lanes::kLanes + static_cast<std::size_t>(lane)] = rows[k];
-  }
   return true;
 }
 }  // namespace gpu_planning_scene::core

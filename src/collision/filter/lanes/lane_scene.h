@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -29,13 +30,6 @@ class LaneScene
   /// Whether the error bounds hold for a state: no value is too large for float arithmetic.
   bool isWithinBounds(const double* state) const;
 
-  /// Whether some frames are of kind Given. If so, fillGiven must be called before the kernel.
-  bool hasGivenFrames() const { return has_given_; }
-
-  /// Sets the poses of the frames of kind Given in one lane, see lanes::Scratch. `link_poses`: of the lane's state.
-  /// Returns false if a frame is too far away for float arithmetic.
-  bool fillGiven(const Eigen::Isometry3d* link_poses, int lane, float* given) const;
-
   /// The instances of a pair of the kernel.
   const InstancePair& instancesOf(std::uint32_t pair) const { return pairs_[pair]; }
   std::size_t pairCount() const { return pairs_.size(); }
@@ -44,6 +38,24 @@ class LaneScene
   std::size_t selfPairOf(std::uint32_t pair) const { return self_pair_of_[pair]; }
 
  private:
+  /// The values of a variable for which the error bounds hold: those within `most` of `middle`.
+  struct Limit
+  {
+    double middle = 0.0;
+    double most = std::numeric_limits<double>::max();
+  };
+
+  /// A motion along an axis, by multiplier * variable + offset.
+  struct Slide
+  {
+    Eigen::Vector3d axis;
+    int variable;
+    double middle;  // of the variable
+    double most;    // metres: the largest distance of the variable from the middle; smaller if its limits are
+    double multiplier = 1.0;
+    double offset = 0.0;
+  };
+
   /// Error bounds of the kernel for a frame, in metres.
   struct FrameError
   {
@@ -67,7 +79,12 @@ class LaneScene
   };
 
   void addFrames();
-  int addFrame(const Joint& joint, int link, int parent, const Eigen::Isometry3d& origin);
+  int addFramesOf(const Joint& joint, int parent, const Eigen::Isometry3d& origin);
+  int addTurn(const Joint& joint, int variable, int parent, const Eigen::Isometry3d& origin);
+  int addSlide(const Slide& slide, int parent, const Eigen::Isometry3d& origin);
+  int addQuaternion(int variable, int parent);
+  int addFrame(lanes::Frame frame, int parent, double step, double turn);
+  void limit(int variable, const Limit& limit);
   void addInstance(const ShapeInstance& instance, const BallCover& cover, const OrientedBox& box);
   void addClusters();
   void addSelfPairs(const CollisionProblem& problem);
@@ -84,9 +101,7 @@ class LaneScene
 
   std::vector<int> frame_of_link_;
   std::vector<Eigen::Isometry3d> in_frame_;  // of each link: its pose in its frame
-  std::vector<int> link_of_given_;           // of each frame: its link if it is of kind Given, else -1
-  bool has_given_ = false;
-  std::vector<double> largest_;  // of each variable, see isWithinBounds
+  std::vector<Limit> limits_;                // of each variable, see isWithinBounds
   std::vector<FrameError> frame_errors_;
   std::vector<InstanceError> instance_errors_;
   std::vector<BoxError> box_errors_;
