@@ -22,6 +22,13 @@ double uniform(std::mt19937_64& generator)
   return static_cast<double>(generator() >> 11) * 0x1.0p-53;
 }
 
+double randomValue(const Variable& variable, std::mt19937_64& generator)
+{
+  const double u = uniform(generator);
+  // This form cannot overflow, even for wide limits. The clamp removes rounding errors.
+  return std::clamp((1.0 - u) * variable.lower + u * variable.upper, variable.lower, variable.upper);
+}
+
 // Uniform over the rotations: draws points in the four-dimensional unit ball by rejection and normalises them.
 void randomQuaternion(std::mt19937_64& generator, double* coefficients)
 {
@@ -124,12 +131,7 @@ void RobotModel::computeLinkPose(const double* state, int link, Eigen::Isometry3
 void RobotModel::randomState(std::mt19937_64& generator, double* state) const
 {
   for (std::size_t i = 0; i < variables_.size(); ++i)
-  {
-    const Variable& variable = variables_[i];
-    const double u = uniform(generator);
-    // This form cannot overflow, even for wide limits. The clamp removes rounding errors.
-    state[i] = std::clamp((1.0 - u) * variable.lower + u * variable.upper, variable.lower, variable.upper);
-  }
+    state[i] = randomValue(variables_[i], generator);
   for (const Joint& joint : joints_)
     if (joint.type == JointType::Floating)
       randomQuaternion(generator, state + joint.first_variable + 3);
@@ -137,10 +139,10 @@ void RobotModel::randomState(std::mt19937_64& generator, double* state) const
 
 void RobotModel::randomState(std::mt19937_64& generator, const double* base, double* state) const
 {
-  randomState(generator, state);
+  std::copy_n(base, variables_.size(), state);
   for (const Joint& joint : joints_)
-    if (joint.type == JointType::Planar || joint.type == JointType::Floating)
-      std::copy_n(base + joint.first_variable, variableCount(joint.type), state + joint.first_variable);
+    if (variableCount(joint.type) == 1 && !joint.mimic)
+      state[joint.first_variable] = randomValue(variables_[static_cast<std::size_t>(joint.first_variable)], generator);
 }
 
 std::vector<double> RobotModel::defaultState() const

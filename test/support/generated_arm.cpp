@@ -97,10 +97,10 @@ std::string urdf()
 }
 
 /// A link overlaps the next two links of the chain in all states.
-std::string srdf()
+std::string srdf(const std::string& virtual_joint = "")
 {
   std::ostringstream text;
-  text << "<robot name=\"generated_arm\">\n";
+  text << "<robot name=\"generated_arm\">\n" << virtual_joint;
   for (std::size_t i = 0; i < kLinks.size(); ++i)
     for (std::size_t k = i + 1; k < std::min(i + 3, kLinks.size()); ++k)
       text << "<disable_collisions link1=\"" << linkName(i) << "\" link2=\"" << linkName(k)
@@ -121,6 +121,8 @@ GeneratedArm::GeneratedArm(std::size_t triangles)
   folder_ = name;
   std::ofstream(folder_ + "/arm.urdf") << urdf();
   std::ofstream(folder_ + "/arm.srdf") << srdf();
+  std::ofstream(folder_ + "/driven_arm.srdf") << srdf(
+      "<virtual_joint name=\"drive\" type=\"planar\" parent_frame=\"map\" child_link=\"" + linkName(0) + "\"/>\n");
   for (std::size_t i = 0; i < kLinks.size(); ++i)
     writeStl(folder_ + "/" + linkName(i) + ".stl", *tube(kLinks[i], triangles / kLinks.size()));
 }
@@ -134,5 +136,10 @@ GeneratedArm::~GeneratedArm()
 std::shared_ptr<const RobotModel> GeneratedArm::load() const
 {
   return RobotModel::fromFiles(folder_ + "/arm.urdf", folder_ + "/arm.srdf", {});
+}
+
+std::shared_ptr<const RobotModel> GeneratedArm::loadDriven() const
+{
+  return RobotModel::fromFiles(folder_ + "/arm.urdf", folder_ + "/driven_arm.srdf", {});
 }
 }  // namespace gpu_planning_scene::core

@@ -22,6 +22,9 @@ class GeneratedArm
 
   std::shared_ptr<const RobotModel> load() const;
 
+  /// The arm on a base that drives: an SRDF with a planar virtual joint.
+  std::shared_ptr<const RobotModel> loadDriven() const;
+
  private:
   std::string folder_;
 };

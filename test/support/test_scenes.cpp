@@ -5,7 +5,6 @@
 #include <functional>
 #include <map>
 #include <random>
-#include <regex>
 
 #include <yaml-cpp/yaml.h>
 
@@ -48,7 +47,8 @@ RealRobot robotOf(const std::string& name)
   return startsWith(name, "drchubo") ? drchubo() : kr5();
 }
 
-/// A test scene whose random states use the full range of every variable.
+/// A test scene whose random states use the full range of every variable. Floating joints stay where they are: the
+/// panda's SRDF has one, although its base stands on the floor.
 TestScene inFullRanges(const std::string& name, PlanningScene scene)
 {
   TestScene made;
@@ -58,6 +58,12 @@ TestScene inFullRanges(const std::string& name, PlanningScene scene)
     made.lower.push_back(variable.lower);
     made.upper.push_back(variable.upper);
   }
+  for (const Joint& joint : scene.robot->joints())
+    for (int k = 0; joint.type == JointType::Floating && k < variableCount(joint.type); ++k)
+    {
+      const auto variable = static_cast<std::size_t>(joint.first_variable + k);
+      made.lower[variable] = made.upper[variable] = scene.current_state[variable];
+    }
   made.scene = std::make_shared<const PlanningScene>(std::move(scene));
   return made;
 }
@@ -114,17 +120,9 @@ std::shared_ptr<const RobotModel> ur5Model()
   return model;
 }
 
-/// Panda with a base that stands on the floor: MoveIt's tests move it.
 std::shared_ptr<const RobotModel> pandaModel()
 {
-  static const std::shared_ptr<const RobotModel> model = []
-  {
-    const RealRobot robot = panda();
-    const std::string srdf = std::regex_replace(robot.srdfText(), std::regex("type=\"floating\""), "type=\"fixed\"");
-    RobotModelOptions options;
-    options.packages = packageResolver(robot.packages);
-    return RobotModel::fromXml(robot.urdfText(), srdf, options);
-  }();
+  static const std::shared_ptr<const RobotModel> model = panda().load();
   return model;
 }
 
@@ -189,7 +187,7 @@ std::vector<WorldObject> forKr5(std::vector<WorldObject> objects)
 /// Objects in a frame whose z axis points up and whose origin is the robot's foot.
 std::vector<WorldObject> furnitureOf(const std::string& name)
 {
-  const bool boxes = name == "kr5_boxes" || name == "arm_boxes" || name == "panda_boxes";
+  const bool boxes = name != "kr5_shelf" && name != "arm_shelf" && name != "panda_shelf";
   return boxes ? boxesAround({0.0, 0.0, 0.5}, 8, 0.5, 0.3) : shelf({0.5, 0.0, 0.0}, {0.5, 1.4, 1.5}, 4);
 }
 
@@ -213,7 +211,8 @@ TestScene load(const std::string& name)
     return loadUr5(name);
   if (startsWith(name, "drchubo"))
     return loadDrchubo(name);
-  PlanningScene scene(startsWith(name, kArmPrefix)     ? generatedArm().load()
+  PlanningScene scene(name == "arm_driven"             ? generatedArm().loadDriven()
+                      : startsWith(name, kArmPrefix)   ? generatedArm().load()
                       : startsWith(name, kPandaPrefix) ? pandaModel()
                       : name == "wam"                  ? loadWithGeneratedSrdf(wam())
                                                        : kr5Model());
@@ -256,7 +255,7 @@ const std::vector<std::string>& benchmarkSceneNames()
   {
     std::vector<std::string> all = testSceneNames();
     for (const char* name : {"kr5_boxes", "kr5_shelf", "drchubo_table", "drchubo_corridor", "arm_boxes", "arm_shelf",
-                             "panda_boxes", "panda_shelf", "panda_table"})
+                             "arm_driven", "panda_boxes", "panda_shelf", "panda_table"})
       all.emplace_back(name);
     return all;
   }();
@@ -277,7 +276,9 @@ std::string missingFor(const std::string& name)
 
 std::shared_ptr<const RobotModel> loadRobotOf(const std::string& name)
 {
-  return startsWith(name, kArmPrefix) ? generatedArm().load() : robotOf(name).load();
+  if (startsWith(name, kArmPrefix))
+    return name == "arm_driven" ? generatedArm().loadDriven() : generatedArm().load();
+  return robotOf(name).load();
 }
 
 TestScene withPadding(const TestScene& scene, double padding)

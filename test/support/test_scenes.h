@@ -28,8 +28,8 @@ struct TestScene
 const std::vector<std::string>& testSceneNames();
 
 /// The names of testSceneNames() and "kr5_boxes" (8 boxes), "kr5_shelf", "drchubo_table", "drchubo_corridor",
-/// "arm_boxes", "arm_shelf", "panda_boxes", "panda_shelf" and "panda_table". The project generates the robot of the
-/// scenes arm_*, so they are available everywhere.
+/// "arm_boxes", "arm_shelf", "arm_driven" (on a planar base, among boxes), "panda_boxes", "panda_shelf" and
+/// "panda_table". The project generates the robot of the scenes arm_*, so they are available everywhere.
 const std::vector<std::string>& benchmarkSceneNames();
 
 /// The file or folder that the scene needs and that is missing; empty if the scene can be loaded.

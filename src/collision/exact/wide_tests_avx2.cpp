@@ -5,6 +5,7 @@
 #ifdef __x86_64__
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
+#define GPS_AVX
 #define GPS_OVERLAP_TEST overlapAvx2
 #define GPS_NEAR_TRIANGLES_TEST nearTrianglesAvx2
 #include "collision/exact/wide_overlap_body.h"

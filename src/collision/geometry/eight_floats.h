@@ -1,5 +1,11 @@
 #pragma once
 
+// Before its version 13, GCC does not define __AVX__ after a #pragma GCC target. So the files with such a pragma define
+// GPS_AVX.
+#if defined(__AVX__) && !defined(GPS_AVX)
+#define GPS_AVX
+#endif
+
 // Eight floats side by side, in the vector extension of GCC and Clang: operators work on all eight. Each user is
 // compiled for several instruction sets, so the functions are private to the file that includes this one, and they call
 // no function that other files define inline.
@@ -25,7 +31,7 @@ inline Floats load(const float* from)
 /// Four floats in both halves.
 inline Floats loadTwice(const float* from)
 {
-#ifdef __AVX__
+#ifdef GPS_AVX
   typedef float Four __attribute__((vector_size(16)));
   Four loaded;
   __builtin_memcpy(&loaded, from, sizeof loaded);
@@ -49,7 +55,7 @@ inline void store(const Floats& values, float* to)
 /// Bit i: element i is true.
 inline int bits(const Ints& truth)
 {
-#ifdef __AVX__
+#ifdef GPS_AVX
   return __builtin_ia32_movmskps256(reinterpret_cast<Floats>(truth));
 #else
   int found = 0;
@@ -61,7 +67,7 @@ inline int bits(const Ints& truth)
 
 inline Floats squareRoot(const Floats& x)
 {
-#ifdef __AVX__
+#ifdef GPS_AVX
   return __builtin_ia32_sqrtps256(x);
 #else
   Floats root;
@@ -74,7 +80,7 @@ inline Floats squareRoot(const Floats& x)
 /// Where an element is NaN, the second operand.
 inline Floats smaller(const Floats& a, const Floats& b)
 {
-#ifdef __AVX__
+#ifdef GPS_AVX
   return __builtin_ia32_minps256(a, b);
 #else
   return a < b ? a : b;
@@ -84,7 +90,7 @@ inline Floats smaller(const Floats& a, const Floats& b)
 /// Where an element is NaN, the second operand.
 inline Floats larger(const Floats& a, const Floats& b)
 {
-#ifdef __AVX__
+#ifdef GPS_AVX
   return __builtin_ia32_maxps256(a, b);
 #else
   return a > b ? a : b;

@@ -5,6 +5,7 @@
 #ifdef __x86_64__
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
+#define GPS_AVX
 #define GPS_LANE_KERNEL proveAvx2
 #include "collision/filter/lanes/lane_kernel_body.h"
 #pragma GCC pop_options

@@ -131,8 +131,11 @@ int LaneScene::addFramesOf(const Joint& joint, int parent, const Isometry3d& ori
     case JointType::Continuous:
       return addTurn(joint, v, parent, origin);
     case JointType::Prismatic:
-      return addSlide({joint.axis, v, 0.0, std::numeric_limits<double>::max(), joint.multiplier, joint.offset}, parent,
-                      origin);
+    {
+      const Variable& limits = robot_->variables()[static_cast<std::size_t>(v)];
+      const double farthest = std::max(std::abs(limits.lower), std::abs(limits.upper)) + 1e-6;
+      return addSlide({joint.axis, v, 0.0, farthest, joint.multiplier, joint.offset}, parent, origin);
+    }
     case JointType::Planar:
     {
       const Matrix3d directions = planarDirections(joint.axis);
@@ -187,9 +190,6 @@ int LaneScene::addTurn(const Joint& joint, int variable, int parent, const Isome
 /// A frame that slides along an axis. Its position is computed relative to that for the slide's middle.
 int LaneScene::addSlide(const Slide& slide, int parent, const Isometry3d& origin)
 {
-  const Variable& variable = robot_->variables()[static_cast<std::size_t>(slide.variable)];
-  const double farthest = std::max(std::abs(variable.lower - slide.middle), std::abs(variable.upper - slide.middle));
-  const double most = std::min(slide.most, farthest + 1e-6);
   const Vector3d axis = origin.linear() * slide.axis;
   Isometry3d middle = origin;
   middle.translation() += (slide.multiplier * slide.middle + slide.offset) * axis;
@@ -200,8 +200,8 @@ int LaneScene::addSlide(const Slide& slide, int parent, const Isometry3d& origin
   frame.offset = -slide.multiplier * slide.middle;
   writePose(middle, frame.constant);
   writePose(Eigen::Isometry3d(Eigen::Translation3d(axis)), frame.first);
-  limit(slide.variable, {slide.middle, most});
-  return addFrame(frame, parent, middle.translation().norm() + std::abs(slide.multiplier) * most, kConstantError);
+  limit(slide.variable, {slide.middle, slide.most});
+  return addFrame(frame, parent, middle.translation().norm() + std::abs(slide.multiplier) * slide.most, kConstantError);
 }
 
 /// A frame that turns by a quaternion, whose x is the variable.

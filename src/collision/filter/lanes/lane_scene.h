@@ -51,7 +51,7 @@ class LaneScene
     Eigen::Vector3d axis;
     int variable;
     double middle;  // of the variable
-    double most;    // metres: the largest distance of the variable from the middle; smaller if its limits are
+    double most;    // metres: the largest distance of the variable from the middle
     double multiplier = 1.0;
     double offset = 0.0;
   };
