@@ -99,7 +99,7 @@ inline Floats larger(const Floats& a, const Floats& b)
 
 inline Floats magnitude(const Floats& x)
 {
-  return x < 0.0F ? -x : x;
+  return reinterpret_cast<Floats>(reinterpret_cast<Ints>(x) & 0x7fffffff);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

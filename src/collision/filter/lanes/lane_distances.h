@@ -10,7 +10,7 @@ namespace
 /// NaN stays NaN, so that it proves nothing.
 inline Floats atLeastZero(const Floats& x)
 {
-  return x < 0.0F ? all(0.0F) : x;
+  return larger(all(0.0F), x);
 }
 
 inline Floats squaredDistance(const Points& a, const Points& b)

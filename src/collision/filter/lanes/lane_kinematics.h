@@ -39,7 +39,17 @@ inline void sineCosine(const Floats& x, Floats& sine, Floats& cosine)
   cosine = ((quarter + 1) & 2) != 0 ? -in_cosine : in_cosine;
 }
 
+typedef double Doubles __attribute__((vector_size(64)));
+
 /// Angles modulo 2 pi, in [-pi, pi].
+inline Doubles wrapped(const Doubles& angles)
+{
+  constexpr double kTurn = 6.283185307179586;
+  constexpr double kRounds = 0x1.8p52;  // a sum with it has no fraction
+  const Doubles turns = angles * (1.0 / kTurn) + kRounds - kRounds;
+  return angles - kTurn * turns;
+}
+
 inline double wrapped(double angle)
 {
   constexpr double kTurn = 6.283185307179586;
@@ -49,14 +59,12 @@ inline double wrapped(double angle)
 /// The value of a frame's joint in all lanes. Lanes beyond `count` repeat the first one.
 inline Floats jointValues(const Frame& frame, const Model& model, const double* states, int count)
 {
-  Floats values;
+  Doubles values;
   for (int lane = 0; lane < kLanes; ++lane)
-  {
-    const double* state = states + (lane < count ? static_cast<unsigned>(lane) : 0U) * model.width;
-    const double value = frame.multiplier * state[frame.variable] + frame.offset;
-    values[lane] = static_cast<float>(frame.kind == FrameKind::Revolute ? wrapped(value) : value);
-  }
-  return values;
+    values[lane] = states[(lane < count ? static_cast<unsigned>(lane) : 0U) * model.width +
+                          static_cast<unsigned>(frame.variable)];
+  values = frame.multiplier * values + frame.offset;
+  return __builtin_convertvector(frame.kind == FrameKind::Revolute ? wrapped(values) : values, Floats);
 }
 
 /// Writes the rotation of a frame of kind Turned. A quaternion that is too short for float arithmetic gives NaN, which
