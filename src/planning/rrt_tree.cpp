@@ -3,10 +3,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include <ompl/tools/config/SelfConfig.h>
-
-// The tree of S. M. LaValle: Rapidly-exploring random trees: A new tool for path planning. TR 98-11, 1998. OMPL finds
-// the nearest state. A removed vertex stays in memory, because its children point to it.
+// The tree of S. M. LaValle: Rapidly-exploring random trees: A new tool for path planning. TR 98-11, 1998. A
+// removed vertex stays in memory, because its children point to it.
 namespace gpu_planning_scene::core
 {
 const RrtTree::Vertex& RrtTree::Vertex::root() const
@@ -18,11 +16,8 @@ const RrtTree::Vertex& RrtTree::Vertex::root() const
 }
 
 RrtTree::RrtTree(const ompl::base::Planner& planner)
-  : information_(planner.getSpaceInformation()),
-    nearest_(ompl::tools::SelfConfig::getDefaultNearestNeighbors<const Vertex*>(&planner))
+  : information_(planner.getSpaceInformation()), nearest_(information_->getStateSpace())
 {
-  nearest_->setDistanceFunction([space = information_->getStateSpace()](const Vertex* a, const Vertex* b)
-                                { return space->distance(a->state, b->state); });
 }
 
 RrtTree::~RrtTree()
@@ -34,7 +29,8 @@ RrtTree::~RrtTree()
 const RrtTree::Vertex& RrtTree::add(const ompl::base::State* state, const Vertex* parent)
 {
   vertices_.push_back(std::make_unique<Vertex>(Vertex{information_->cloneState(state), parent}));
-  nearest_->add(vertices_.back().get());
+  nearest_.add(state);
+  vertex_of_.push_back(vertices_.back().get());
   return *vertices_.back();
 }
 
@@ -51,15 +47,15 @@ const RrtTree::Vertex& RrtTree::nearest(const ompl::base::State* state)
 {
   if (std::exchange(is_stale_, false))
   {
-    std::vector<const Vertex*> left;
+    nearest_.clear();
+    vertex_of_.clear();
     for (const std::unique_ptr<Vertex>& each : vertices_)
       if (!each->removed)
-        left.push_back(each.get());
-    nearest_->clear();
-    nearest_->add(left);
+      {
+        nearest_.add(each->state);
+        vertex_of_.push_back(each.get());
+      }
   }
-  // The search only reads the vertex that it is given.
-  const Vertex query{const_cast<ompl::base::State*>(state), nullptr};
-  return *nearest_->nearest(&query);
+  return *vertex_of_[nearest_.nearest(state)];
 }
 }  // namespace gpu_planning_scene::core

@@ -6,7 +6,8 @@
 
 #include <ompl/base/Planner.h>
 #include <ompl/base/PlannerData.h>
-#include <ompl/datastructures/NearestNeighbors.h>
+
+#include "planning/nearest_state.h"
 
 namespace gpu_planning_scene::core
 {
@@ -43,9 +44,8 @@ class RrtTree
  private:
   ompl::base::SpaceInformationPtr information_;
   std::vector<std::unique_ptr<Vertex>> vertices_;
-  /// OMPL's search sometimes rebuilds itself when a vertex is removed. So removed vertices stay in it until the next
-  /// search, which rebuilds it once.
-  std::unique_ptr<ompl::NearestNeighbors<const Vertex*>> nearest_;
-  bool is_stale_ = false;  // nearest_ still has removed vertices
+  NearestState nearest_;
+  std::vector<const Vertex*> vertex_of_;  // of each state of nearest_
+  bool is_stale_ = false;                 // nearest_ still has removed vertices; the next search removes them
 };
 }  // namespace gpu_planning_scene::core
