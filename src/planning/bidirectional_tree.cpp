@@ -4,14 +4,19 @@
 #include <cmath>
 
 // A round collects the next motions of all attempts and of the random branches. It checks their samples in one call and
-// adds the valid motions to the trees.
+// adds the valid motions to the trees. The trees stay balanced: a tree in open space would soon have most of the
+// vertices, and its growth would cost most of the checks, while the other one looks for its way out.
 // J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
+// Balanced trees: S. M. LaValle: Planning Algorithms. 2006, section 5.5.3.
 namespace gpu_planning_scene::core
 {
 namespace
 {
 // Keeps a round short for every range.
 constexpr std::size_t kMaxPieces = 64;
+
+// Of so many rounds, one grows the larger tree: the smaller one may be in a pocket that is easier to find from outside.
+constexpr std::size_t kRoundsOfBothTrees = 8;
 
 // Between two roots, a free straight line saves the most work. There are few of these lines, so each gets many segments
 // at once.
@@ -83,6 +88,13 @@ BidirectionalTree::Attempt BidirectionalTree::pieces(Connection connection, doub
   return attempt;
 }
 
+/// The tree whose turn it is to grow random branches.
+BidirectionalTree::Side BidirectionalTree::growingSide()
+{
+  const Side smaller = trees_[Start].size() <= trees_[Goal].size() ? Start : Goal;
+  return ++rounds_ % kRoundsOfBothTrees == 0 ? otherThan(smaller) : smaller;
+}
+
 BidirectionalTree::Attempt BidirectionalTree::randomBranch(Side side, double range)
 {
   ompl::base::State* state = scratch();
@@ -110,11 +122,12 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
                                                                 const ompl::base::PlannerTerminationCondition& ptc)
 {
   scratch_used_ = 0;
+  const Side side = growingSide();
   std::vector<Attempt> attempts;
   for (const Connection& connection : connections_)
     attempts.push_back(pieces(connection, range));
   for (std::size_t i = 0; i < branches; ++i)
-    attempts.push_back(randomBranch(turn_, range));
+    attempts.push_back(randomBranch(side, range));
 
   // The motions get the direction that they will have in the path.
   std::vector<MotionValidator::Motion> motions;
@@ -131,7 +144,6 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
   const std::vector<std::uint8_t> valid = validator.validateSamples(motions, ptc);
   if (ptc)  // motions without a verdict are reported as invalid
     return {};
-  turn_ = otherThan(turn_);
   connections_.clear();
 
   std::vector<Meeting> meetings;

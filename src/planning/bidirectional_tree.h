@@ -42,11 +42,11 @@ class BidirectionalTree
   /// Adds a root. In the next round, the other tree grows towards it on a straight line.
   void addRoot(Side side, const ompl::base::State* state);
 
-  /// Grows the trees by one round; the samples of all its motions are checked in one call. The trees take turns: one
-  /// tree grows `branches` motions towards random states. Both trees also grow towards their targets, which are
-  /// vertices of the other tree. Each vertex of a new random branch becomes a target of the other tree, from the next
-  /// round on. `range`: the longest motion, above 0. Returns the meetings of the trees. If `ptc` ends the round, the
-  /// trees stay as they were, and there are no meetings.
+  /// Grows the trees by one round; the samples of all its motions are checked in one call. One tree, mostly the smaller
+  /// one, grows `branches` motions towards random states. Both trees also grow towards their targets, which are vertices
+  /// of the other tree. Each vertex of a new random branch becomes a target of the other tree, from the next round on.
+  /// `range`: the longest motion, above 0. Returns the meetings of the trees. If `ptc` ends the round, the trees stay as
+  /// they were, and there are no meetings.
   std::vector<Meeting> grow(const MotionValidator& validator, std::size_t branches, double range,
                             const ompl::base::PlannerTerminationCondition& ptc);
 
@@ -69,6 +69,7 @@ class BidirectionalTree
     std::vector<const ompl::base::State*> states;
   };
 
+  Side growingSide();
   Attempt pieces(Connection connection, double range);
   Attempt randomBranch(Side side, double range);
   const Vertex& advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done);
@@ -77,7 +78,7 @@ class BidirectionalTree
   ompl::base::SpaceInformationPtr information_;
   ompl::base::StateSamplerPtr sampler_;
   std::array<RrtTree, 2> trees_;
-  Side turn_ = Start;
+  std::size_t rounds_ = 0;
   std::vector<Connection> connections_;
   std::vector<ompl::base::State*> scratch_;  // states of a round
   std::size_t scratch_used_ = 0;

@@ -17,8 +17,8 @@ namespace
 namespace ob = ompl::base;
 using ompl::geometric::PathGeometric;
 
-// Vertices per random branch of a round. The branches of a round grow independently of each other, so in small trees
-// many of them would grow into the same region.
+// Vertices of the smaller tree per random branch of a round. The branches of a round grow independently of each other,
+// so in small trees many of them would grow into the same region.
 constexpr std::size_t kVerticesPerBranch = 8;
 constexpr std::size_t kLeastBranches = 2;
 
@@ -140,7 +140,8 @@ RrtSearch::Path RrtSearch::provenPath(const MotionValidator& validator, const ob
 RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
                                     std::size_t max_branches, double range, const ob::PlannerTerminationCondition& ptc)
 {
-  const std::size_t size = trees_.tree(BidirectionalTree::Start).size() + trees_.tree(BidirectionalTree::Goal).size();
+  const std::size_t size =
+      std::min(trees_.tree(BidirectionalTree::Start).size(), trees_.tree(BidirectionalTree::Goal).size());
   const std::size_t branches = std::min(max_branches, std::max(kLeastBranches, size / kVerticesPerBranch));
   // The first round has no random branches: it tries the straight motions between the roots.
   for (const BidirectionalTree::Meeting& meeting : trees_.grow(validator, is_first_round_ ? 0 : branches, range, ptc))

@@ -1,5 +1,6 @@
 // The planner finds valid paths, returns the states and statuses of OMPL's own planners, and repeats a path for a seed.
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -108,6 +109,30 @@ TEST(BatchRrtConnect, FindsAPathRoundWallsWithMotionsWithinItsRange)
             planning.robot.information()->distance(planning.path().getStates()[i - 1], planning.path().getStates()[i]),
             planning.planner->getRange() + 1e-9);
     }
+}
+
+TEST(BatchRrtConnect, KeepsTheTreesBalancedWhenOneOfThemIsInAPocket)
+{
+  // A room around the start, with a door that leaves the robot 6 cm.
+  const std::vector<Wall> room = {{-1.6, -0.6, -1.5, 0.6},
+                                  {-1.6, 0.5, -0.4, 0.6},
+                                  {-1.6, -0.6, -0.4, -0.5},
+                                  {-0.5, -0.6, -0.4, -0.08},
+                                  {-0.5, 0.08, -0.4, 0.6}};
+  std::array<std::size_t, 3> vertices{};  // by the tag: 1 for the start tree, 2 for the goal tree
+  for (std::uint32_t seed = 1; seed <= 10; ++seed)
+  {
+    ompl::RNG::setSeed(seed);
+    Planning planning(room, {-1.0, 0.3}, {{1.0, 0.3}});
+    planning.planner->setRange(0.05);
+    ASSERT_EQ(planning.solve(), ob::PlannerStatus::EXACT_SOLUTION);
+    ob::PlannerData data(planning.robot.information());
+    planning.planner->getPlannerData(data);
+    for (unsigned int i = 0; i < data.numVertices(); ++i)
+      ++vertices.at(static_cast<std::size_t>(data.getVertex(i).getTag()));
+  }
+  EXPECT_LT(vertices[2], 2 * vertices[1]);
+  EXPECT_LT(vertices[1], 2 * vertices[2]);
 }
 
 /// Samples half a metre apart almost never hit a wall of a millimetre. The planner must remove branches that have grown

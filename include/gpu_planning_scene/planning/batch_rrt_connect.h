@@ -13,15 +13,16 @@ class RrtSearch;
 /// RRT-Connect for a MotionValidator, which checks many motions in little more time than one motion. Two trees, from
 /// the start states and from the goal states, grow in rounds. All motions of a round are checked in one call.
 ///   - The first round checks the straight motions between start and goal states.
-///   - Then the trees take turns: one tree grows motions towards many random states. In the next round, the other tree
-///     grows towards each of the new vertices, in segments no longer than the range and as far as they are valid. The
-///     other tree also grows random branches in the same round.
+///   - Then one tree grows motions towards many random states: the smaller one, and now and then the larger one. In the
+///     next round, the other tree grows towards each of the new vertices, in segments no longer than the range and as
+///     far as they are valid.
 /// If the trees meet in several places at once, the shortest path is the solution.
 /// The trees grow by motions whose samples are free. If the validator's rule is MotionRule::Bound, the motions of a
 /// path are proven when the path is found. A motion that is not proven is removed from its tree, with everything that
 /// grew from it. Not thread-safe.
 ///
 /// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
+/// Balanced trees: S. M. LaValle: Planning Algorithms. Cambridge University Press, 2006, section 5.5.3.
 /// Many branches at once (with threads, in the paper): J. Ichnowski, R. Alterovitz: Parallel sampling-based motion
 /// planning with superlinear speedup. IROS 2012.
 class BatchRrtConnect : public ompl::base::Planner
