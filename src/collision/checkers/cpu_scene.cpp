@@ -19,7 +19,7 @@ constexpr std::size_t kStatesPerSlice = 16'384;
 
 // Checking this many states takes less time than starting threads. The calling thread also keeps its learned order of
 // checks.
-constexpr std::size_t kFewStates = 128;
+constexpr std::size_t kFewStates = 256;
 
 // Loading proofs from disk takes milliseconds of a core. They are loaded after a batch of more states than the first
 // number, or after more checked states than the second number.
