@@ -8,6 +8,8 @@
 // vertices, and its growth would cost most of the checks, while the other one looks for its way out.
 // J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
 // Balanced trees: S. M. LaValle: Planning Algorithms. 2006, section 5.5.3.
+// Domains of vertices: L. Jaillet, A. Yershova, S. M. LaValle, T. Simeon: Adaptive tuning of the sampling domain for
+// dynamic-domain RRTs. IROS 2005.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -17,6 +19,13 @@ constexpr std::size_t kMaxPieces = 64;
 
 // Of so many rounds, one grows the larger tree: the smaller one may be in a pocket that is easier to find from outside.
 constexpr std::size_t kRoundsOfBothTrees = 8;
+
+// A vertex from which a branch has failed is at an obstacle. Most random states for which it is the nearest vertex are
+// beyond the obstacle, so its branches then go only to states within a distance: at first so many ranges, and a tenth
+// less or more after each failure or success. Of so many random states, one is taken in any case.
+constexpr double kDomain = 8.0;
+constexpr double kChangeOfDomain = 0.1;
+constexpr int kMostDraws = 30;
 
 // Between two roots, a free straight line saves the most work. There are few of these lines, so each gets many segments
 // at once.
@@ -98,12 +107,27 @@ BidirectionalTree::Side BidirectionalTree::growingSide()
 BidirectionalTree::Attempt BidirectionalTree::randomBranch(Side side, double range)
 {
   ompl::base::State* state = scratch();
-  sampler_->sampleUniform(state);
-  const Vertex& from = trees_[side].nearest(state);
-  const double distance = information_->distance(from.state, state);
+  const Vertex* from = nullptr;
+  double distance = 0.0;
+  for (int draw = 0; draw == 0 || (draw < kMostDraws && distance > from->domain); ++draw)
+  {
+    sampler_->sampleUniform(state);
+    from = &trees_[side].nearest(state);
+    distance = information_->distance(from->state, state);
+  }
   if (distance > range)
-    information_->getStateSpace()->interpolate(from.state, state, range / distance, state);
-  return {{side, &from, nullptr, 1}, {state}};
+    information_->getStateSpace()->interpolate(from->state, state, range / distance, state);
+  return {{side, from, nullptr, 1}, {state}};
+}
+
+/// Adapts the domain of a vertex after a random branch from it.
+void BidirectionalTree::adaptDomain(Side side, const Vertex& from, bool is_valid, double range)
+{
+  const double change = is_valid ? 1.0 + kChangeOfDomain : 1.0 - kChangeOfDomain;
+  if (!is_valid && std::isinf(from.domain))
+    trees_[side].setDomain(from, kDomain * range);
+  else
+    trees_[side].setDomain(from, std::max(range, change * from.domain));
 }
 
 /// Adds the valid first motions of an attempt to the tree. Returns the last vertex; `done` gets the number of valid
@@ -154,6 +178,8 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
     std::size_t done = 0;
     const Vertex& tip = advance(attempt, first, done);
     first += attempt.states.size();
+    if (!connection.to)
+      adaptDomain(side, *connection.from, done != 0, range);
     if (!connection.to && done != 0)
       connections_.push_back({otherThan(connection.side), nullptr, &tip, 1});
     if (!connection.to || done < attempt.states.size())

@@ -43,10 +43,10 @@ class BidirectionalTree
   void addRoot(Side side, const ompl::base::State* state);
 
   /// Grows the trees by one round; the samples of all its motions are checked in one call. One tree, mostly the smaller
-  /// one, grows `branches` motions towards random states. Both trees also grow towards their targets, which are vertices
-  /// of the other tree. Each vertex of a new random branch becomes a target of the other tree, from the next round on.
-  /// `range`: the longest motion, above 0. Returns the meetings of the trees. If `ptc` ends the round, the trees stay as
-  /// they were, and there are no meetings.
+  /// one, grows `branches` motions towards random states. Both trees also grow towards their targets, which are
+  /// vertices of the other tree. Each vertex of a new random branch becomes a target of the other tree, from the next
+  /// round on. `range`: the longest motion, above 0. Returns the meetings of the trees. If `ptc` ends the round, the
+  /// trees stay as they were, and there are no meetings.
   std::vector<Meeting> grow(const MotionValidator& validator, std::size_t branches, double range,
                             const ompl::base::PlannerTerminationCondition& ptc);
 
@@ -72,6 +72,7 @@ class BidirectionalTree
   Side growingSide();
   Attempt pieces(Connection connection, double range);
   Attempt randomBranch(Side side, double range);
+  void adaptDomain(Side side, const Vertex& from, bool is_valid, double range);
   const Vertex& advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done);
   ompl::base::State* scratch();
 

@@ -28,7 +28,8 @@ RrtTree::~RrtTree()
 
 const RrtTree::Vertex& RrtTree::add(const ompl::base::State* state, const Vertex* parent)
 {
-  vertices_.push_back(std::make_unique<Vertex>(Vertex{information_->cloneState(state), parent}));
+  vertices_.push_back(
+      std::make_unique<Vertex>(Vertex{information_->cloneState(state), parent, false, vertices_.size()}));
   nearest_.add(state);
   vertex_of_.push_back(vertices_.back().get());
   return *vertices_.back();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -20,6 +21,8 @@ class RrtTree
     ompl::base::State* state = nullptr;
     const Vertex* parent = nullptr;  // null: a root
     bool removed = false;
+    std::size_t number = 0;                                   // in vertices()
+    double domain = std::numeric_limits<double>::infinity();  // random branches go to states within this distance
 
     const Vertex& root() const;
   };
@@ -35,6 +38,8 @@ class RrtTree
   /// Removes these vertices, which must not be roots, and everything that grew from them: nearest() no longer returns
   /// them.
   void remove(const std::vector<const Vertex*>& vertices);
+  /// Sets Vertex::domain.
+  void setDomain(const Vertex& vertex, double domain) { vertices_[vertex.number]->domain = domain; }
   /// The vertex nearest to the state. The tree must not be empty.
   const Vertex& nearest(const ompl::base::State* state);
   /// All vertices, removed ones included; parents come before children.
