@@ -51,7 +51,7 @@ void main()
   const float error = positionError(pose_a, pose_b, pose, far_a, farCorner(box_b));
   const float distance = world ? a.padding + b.padding + worldMargin(state, robot) : selfMargin(state, robot, other);
   const float gap = requiredGap(distance, (roots.a_is_solid ? 0.0 : a.slack) + (roots.b_is_solid ? 0.0 : b.slack));
-  if (nodesApart(fetchOrientedNode(roots.a), fetchOrientedNode(roots.b), pose, boxMargin(gap, error)))
+  if (nodesApart(fetchOrientedNode(roots.a), fetchOrientedNode(roots.b), pose, gap, error))
     return;
   // A shape that is tested as a solid needs no certain result here: the traversal also finds triangles inside it. So an
   // uncertain result is dropped.

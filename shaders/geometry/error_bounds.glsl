@@ -53,6 +53,12 @@ float boxMargin(float gap, float position_error)
   return gap * (1.0 + 512.0 * u) + boxError(position_error);
 }
 
+// The same for the line of the centres, whose length is known better than those of the other axes.
+float centersMargin(float gap, float position_error)
+{
+  return gap * (1.0 + 16.0 * u) + boxError(position_error);
+}
+
 // Upper bound on the error of the depth of a point of a in the solid b. This point is transformed by the inverse pose.
 float inverseError(float position_error, vec3 far_a)
 {

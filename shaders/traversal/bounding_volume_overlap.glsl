@@ -60,16 +60,16 @@ bool apartAlongCenters(OrientedNode a, OrientedNode b, Pose pose, float needed)
   return dot(n, n) - reach > needed * lengthAtMost(n) * (1.0 + 16.0 * u);
 }
 
-// Returns true if node b is proven to be more than `margin` apart from node a. `pose` places the tree of b in the frame
-// of the tree of a. False proves nothing.
-bool nodesApart(OrientedNode a, OrientedNode b, Pose pose, float margin)
+// Returns true if node b is proven to be more than `gap` apart from node a. `pose` places the tree of b in the frame of
+// the tree of a, with the position error `error`. False proves nothing.
+bool nodesApart(OrientedNode a, OrientedNode b, Pose pose, float gap, float error)
 {
   const vec3 between = (apply(pose, b.box.center) - a.box.center) * a.axes;
   const mat3 turned = transpose(a.axes) * (pose.rotation * b.axes);
-  const float needed = margin + sizeError(a.box, b.box);
-  const bool apart = boxGap(a.box.extent, b.box.extent, between, turned) > needed;
+  const float size_error = sizeError(a.box, b.box);
+  const bool apart = boxGap(a.box.extent, b.box.extent, between, turned) > boxMargin(gap, error) + size_error;
 #if PADDED
-  return apart || apartAlongCenters(a, b, pose, needed);
+  return apart || apartAlongCenters(a, b, pose, centersMargin(gap, error) + size_error);
 #else
   return apart;
 #endif

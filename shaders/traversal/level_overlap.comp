@@ -50,7 +50,7 @@ void main()
       const uvec2 nodes = childPair(entry.yz, a, b, c);
       const OrientedNode child_a = fetchOrientedNode(nodes.x);
       const OrientedNode child_b = fetchOrientedNode(nodes.y);
-      bool apart = nodesApart(child_a, child_b, root_pair.pose, boxMargin(root_pair.gap, root_pair.error));
+      bool apart = nodesApart(child_a, child_b, root_pair.pose, root_pair.gap, root_pair.error);
 #if SOLIDS
       apart = apart || nodeBeyondSolid(child_a, child_b, instance_a, instance_b, root_pair);
       inside = inside || nodeInCore(child_a, child_b, instance_a.core, instance_b.core, root_pair.pose,

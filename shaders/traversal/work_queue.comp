@@ -110,7 +110,7 @@ void main()
     {
       const OrientedNode a = fetchOrientedNode(nodes.x);
       const OrientedNode b = fetchOrientedNode(nodes.y);
-      bool overlap = !nodesApart(a, b, root_pair.pose, boxMargin(root_pair.gap, root_pair.error));
+      bool overlap = !nodesApart(a, b, root_pair.pose, root_pair.gap, root_pair.error);
 #if SOLIDS
       overlap = overlap && !nodeBeyondSolid(a, b, instance_a, instance_b, root_pair);
       inside = nodeInCore(a, b, instance_a.core, instance_b.core, root_pair.pose, boxError(root_pair.error));

@@ -23,6 +23,13 @@ constexpr std::size_t kFirstBatch = 1024;  // states
 // Requests of at most this many states are answered by the second thread if they have waited for kPatience.
 constexpr std::size_t kFewStates = 16;
 constexpr std::chrono::milliseconds kPatience{10};
+// After a batch has taken so long, the checker of the second thread is made, although no request waits yet: the trees
+// of a large robot take long.
+constexpr std::chrono::milliseconds kSlowBatch{50};
+constexpr std::chrono::seconds kReliefRest{1};  // after the checker could not be made
+
+using Clock = std::chrono::steady_clock;
+constexpr Clock::time_point kNever = Clock::time_point::max();
 
 /// Whether the second thread may answer a request. Motions need an unknown number of checks, and a report belongs to
 /// the checker of the other states.
@@ -120,7 +127,7 @@ std::future<CheckAnswer> CheckQueue::submit(CheckJob job, std::size_t count)
   Request request;
   request.job = std::move(job);
   request.count = count;
-  request.submitted = std::chrono::steady_clock::now();
+  request.submitted = Clock::now();
   std::future<CheckAnswer> answer = request.answer.get_future();
   waiting_states_ += count;
   waiting_.push_back(std::move(request));
@@ -176,32 +183,79 @@ void CheckQueue::run()
 /// The second thread. While the first thread is fast, no request waits for so long.
 void CheckQueue::relieve()
 {
+  Clock::time_point rest;
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stopping_)
   {
     const auto first = std::find_if(waiting_.begin(), waiting_.end(),
                                     [](const Request& request) { return hasFewStates(request.job, request.count); });
-    if (first == waiting_.end())
+    Clock::time_point due = kNever;
+    if (first != waiting_.end())
+      due = first->submitted + kPatience;
+    else if (!is_relief_ready_ && batch_start_ != kNever)
+      due = batch_start_ + kSlowBatch;
+    due = std::max(due, rest);
+    if (due == kNever)
       wake_.wait(lock);
-    else if (const auto due = first->submitted + kPatience; std::chrono::steady_clock::now() < due)
+    else if (Clock::now() < due)
       wake_.wait_until(lock, due);
-    else
-    {
-      Batch batch = take(first, kFewStates);
-      lock.unlock();
-      answer(batch, relief_);
-      batch.clear();  // perhaps the last owner of a scene, which must not be destroyed under the lock
-      lock.lock();
-    }
+    else if (!relieve(first, lock))
+      rest = Clock::now() + kReliefRest;
   }
+}
+
+/// Answers a request of few states and those that can be merged with it. Without a request (the end of the queue), only
+/// makes the checker. Returns false if there is no checker: the first thread then answers the requests, or says what is
+/// wrong with the scene. The caller holds the lock.
+bool CheckQueue::relieve(Batch::iterator first, std::unique_lock<std::mutex>& lock)
+{
+  Batch batch = first == waiting_.end() ? Batch() : take(first, kFewStates);
+  lock.unlock();
+  bool is_ready = false;
+  try
+  {
+    const Snapshot now = takeScene(batch.empty() ? CheckJob() : batch.front().job, relief_);
+    is_ready = true;
+    if (!batch.empty())
+      answer(batch, relief_, &now);
+    batch.clear();  // perhaps the last owner of a scene, which must not be destroyed under the lock
+  }
+  catch (const std::exception&)
+  {
+    // Only takeScene throws.
+  }
+  lock.lock();
+  is_relief_ready_ = is_ready;
+  giveBack(batch);
+  return is_ready;
+}
+
+/// Puts requests at the beginning of the queue again. The caller holds the lock.
+void CheckQueue::giveBack(Batch& batch)
+{
+  for (Request& request : batch)
+    if (stopping_)
+      request.answer.set_exception(shuttingDown());
+    else
+      waiting_states_ += request.count;
+  if (stopping_ || batch.empty())
+    return;
+  waiting_.insert(waiting_.begin(), std::make_move_iterator(batch.begin()), std::make_move_iterator(batch.end()));
+  wake_.notify_all();
 }
 
 /// Takes the oldest queued request and all requests that can be merged with it. Empty: the queue stops.
 CheckQueue::Batch CheckQueue::nextBatch()
 {
   std::unique_lock<std::mutex> lock(mutex_);
+  batch_start_ = kNever;
   wake_.wait(lock, [this] { return stopping_ || !waiting_.empty(); });
-  return stopping_ ? Batch() : take(waiting_.begin(), max_merged_states_);
+  if (stopping_)
+    return {};
+  batch_start_ = Clock::now();
+  if (!is_relief_ready_)
+    wake_.notify_all();  // the second thread watches how long the batch takes
+  return take(waiting_.begin(), max_merged_states_);
 }
 
 /// Takes a queued request and all later ones that can be merged with it, up to `max_states`. The caller holds the lock.
@@ -227,7 +281,8 @@ CheckQueue::Batch CheckQueue::take(Batch::iterator from, std::size_t max_states)
 }
 
 /// If a merged batch fails, each of its requests is checked alone, so that only the wrong requests get an error.
-void CheckQueue::answer(Batch& batch, Worker& worker)
+/// `taken`: what takeScene returned for the batch; null: it was not called.
+void CheckQueue::answer(Batch& batch, Worker& worker, const Snapshot* taken)
 {
   try
   {
@@ -237,7 +292,7 @@ void CheckQueue::answer(Batch& batch, Worker& worker)
     CheckAnswer whole;
     try
     {
-      whole = check(batch, count, worker);
+      whole = check(batch, count, worker, taken);
     }
     catch (...)
     {
@@ -247,7 +302,7 @@ void CheckQueue::answer(Batch& batch, Worker& worker)
       {
         Batch alone;
         alone.push_back(std::move(request));
-        answer(alone, worker);
+        answer(alone, worker, taken);
       }
       return;
     }
@@ -271,10 +326,10 @@ void CheckQueue::answer(Batch& batch, Worker& worker)
   }
 }
 
-CheckAnswer CheckQueue::check(Batch& batch, std::size_t count, Worker& worker)
+CheckAnswer CheckQueue::check(Batch& batch, std::size_t count, Worker& worker, const Snapshot* taken)
 {
   const CheckJob& job = batch.front().job;
-  const Snapshot now = takeScene(job, worker);
+  const Snapshot now = taken ? *taken : takeScene(job, worker);
   std::vector<double> states = statesOf(batch, now);
   CheckAnswer answer;
   answer.scene = now.scene;

@@ -13,12 +13,13 @@ namespace gpu_planning_scene::core
 {
 /// A queue of check requests, with the thread and the checker that answer them. A second thread with its own checker
 /// relieves the first one: if a request of few states has waited for some milliseconds, because the current batch takes
-/// long, the second thread answers it.
+/// long, the second thread answers it. If its checker cannot be made, the first thread answers all requests.
 class CheckQueue
 {
  public:
   /// `max_merged_states`: the largest number of states in a batch of merged requests; 0: requests are not merged.
-  /// `make_relief`: makes the checker of the second thread when it is first needed; null: there is no such thread.
+  /// `make_relief`: makes the checker of the second thread when a batch takes long for the first time; null: there is
+  /// no such thread.
   CheckQueue(const SceneStore& store, CheckServer::MakeChecker make_checker, const CheckServerOptions& options,
              std::size_t max_merged_states, CheckServer::MakeChecker make_relief = nullptr);
   ~CheckQueue();
@@ -50,10 +51,12 @@ class CheckQueue
 
   void run();
   void relieve();
+  bool relieve(Batch::iterator first, std::unique_lock<std::mutex>& lock);
+  void giveBack(Batch& batch);
   Batch nextBatch();
   Batch take(Batch::iterator first, std::size_t max_states);
-  void answer(Batch& batch, Worker& worker);
-  CheckAnswer check(Batch& batch, std::size_t count, Worker& worker);
+  void answer(Batch& batch, Worker& worker, const Snapshot* taken = nullptr);
+  CheckAnswer check(Batch& batch, std::size_t count, Worker& worker, const Snapshot* taken);
   BatchResult checkStates(const std::vector<double>& states, std::size_t count, const std::string& group,
                           Worker& worker);
   void checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer, Worker& worker);
@@ -76,6 +79,9 @@ class CheckQueue
   std::condition_variable wake_;
   Batch waiting_;
   std::size_t waiting_states_ = 0;
+  // When the first thread began its current batch; max: it has none.
+  std::chrono::steady_clock::time_point batch_start_ = std::chrono::steady_clock::time_point::max();
+  bool is_relief_ready_ = false;
   bool stopping_ = false;
   CheckStatistics statistics_;
   std::thread thread_;  // last members: the threads use all members above

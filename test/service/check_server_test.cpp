@@ -432,6 +432,56 @@ TEST_F(Server, RequestsOfFewStatesDoNotWaitForASlowBatch)
   relieved.stop();
 }
 
+/// The trees of a large robot take long, so the first request beside a slow batch would wait for them.
+TEST_F(Server, TheReliefIsReadyBeforeARequestWaitsBesideASlowBatch)
+{
+  Gate open_gate;
+  CheckServer relieved(
+      store,
+      [this](std::shared_ptr<const PlanningScene> scene)
+      { return std::make_shared<GatedChecker>(std::move(scene), gate); },
+      options(),
+      [&open_gate](std::shared_ptr<const PlanningScene> scene)
+      { return std::make_shared<GatedChecker>(std::move(scene), open_gate); });
+  gate.close();
+  std::future<CheckAnswer> slow = relieved.submit(job(kSmall));
+  for (int i = 0; i < 2000 && open_gate.checkers() == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(1U, open_gate.checkers());
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), relieved.submit(job(1)).get().result.valid);
+  EXPECT_EQ(1U, open_gate.checkers());
+  gate.open();
+  EXPECT_EQ(kSmall, slow.get().result.valid.size());
+}
+
+TEST_F(Server, WithoutAReliefTheFirstThreadAnswers)
+{
+  std::atomic<int> attempts{0};
+  const auto make = [this](std::shared_ptr<const PlanningScene> scene)
+  { return std::make_shared<GatedChecker>(std::move(scene), gate); };
+  const auto fail = [&attempts](const std::shared_ptr<const PlanningScene>&) -> std::shared_ptr<StateChecker>
+  {
+    ++attempts;
+    throw Error("there is no memory for another checker");
+  };
+  CheckServer relieved(store, make, options(), fail);
+  gate.close();
+  std::future<CheckAnswer> slow = relieved.submit(job(kSmall));
+  gate.waitForChecks(1);
+  std::future<CheckAnswer> waiting = relieved.submit(job(1));
+  std::future<CheckAnswer> other = relieved.submit(job(2, -1.0));
+  for (int i = 0; i < 2000 && attempts == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(1, attempts);
+  gate.open();
+  EXPECT_EQ(kSmall, slow.get().result.valid.size());
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), waiting.get().result.valid);
+  EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), other.get().result.valid);
+  EXPECT_EQ(0U, relieved.statistics().errors);
+  EXPECT_EQ(0U, relieved.statistics().waiting_states);
+  EXPECT_LE(attempts, 2) << "it rests after a failure";
+}
+
 TEST_F(Server, EveryAnswerBelongsToTheRevisionThatItNames)
 {
   std::atomic<bool> done{false};

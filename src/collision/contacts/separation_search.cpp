@@ -25,6 +25,8 @@ constexpr std::size_t kMaxPairs = 8;
 /// A search along a direction begins at this depth.
 constexpr double kFirstDepth = 1e-7;  // metres
 constexpr double kDepthGrowth = 4.0;
+/// The contract allows no collision at a larger distance than this beyond the required one.
+constexpr double kLeastGap = 1e-9;  // metres
 /// Exceeds the error of pairClearance.
 constexpr double kDistanceAccuracy = 1.1e-6;  // metres
 /// Directions that are not better by this share are not distinguished.
@@ -96,17 +98,19 @@ class TranslationSearch
     best_ = {normal, high};
   }
 
-  /// The best translation. It is tested; if rounding has made it too short, it grows until the bodies are apart.
+  /// The best translation. It is tested; if it is too short, it grows until the bodies are kLeastGap apart. It is too
+  /// short because of rounding, or because the last parts that meet leave each other in another direction.
   Separation best() const
   {
     Separation found = best_;
-    for (double growth = kSeparationGap; !isApart(found.normal, found.depth) && growth < 1.0; growth *= 2.0)
+    for (double growth = kSeparationGap; !isApart(found.normal, found.depth, kLeastGap) && growth < 1.0; growth *= 2.0)
       found.depth += growth;
     return found;
   }
 
  private:
-  bool isApart(const Vector3d& normal, double depth) const
+  /// Whether the translation brings all pairs farther apart than their required distance and `gap`.
+  bool isApart(const Vector3d& normal, double depth, double gap = 0.0) const
   {
     const Vector3d translation = depth * normal;
     for (std::size_t i = 0; i < pairs_.size(); ++i)
@@ -114,12 +118,12 @@ class TranslationSearch
       const ContactPair& pair = pairs_[i];
       const AlignedBox3d& a = bounds_[i].a;
       const AlignedBox3d& b = bounds_[i].b;
-      const Vector3d gap = (b.min() + translation - a.max()).cwiseMax(a.min() - b.max() - translation);
-      if (gap.maxCoeff() > pair.required)
+      const double required = pair.required + gap;
+      if ((b.min() + translation - a.max()).cwiseMax(a.min() - b.max() - translation).maxCoeff() > required)
         continue;
       Eigen::Isometry3d moved = pair.b.pose;
       moved.pretranslate(translation);
-      if (exact_.collide(*pair.a.tree, pair.a.pose, *pair.b.tree, moved, pair.required, scratch_))
+      if (exact_.collide(*pair.a.tree, pair.a.pose, *pair.b.tree, moved, required, scratch_))
         return false;
     }
     return true;

@@ -24,15 +24,23 @@ class HeldShape
   }
   /// The held body has several shapes. Each object has one.
   HeldShape(const std::vector<PlacedShape>& held, const std::vector<PlacedShape>& objects, double padding = 0.0)
-    : scene_(robotOf("<link name=\"base\"/><link name=\"hand\"/>" + jointXml("move", "floating", "base", "hand")))
+    : HeldShape(held)
   {
     for (std::size_t i = 0; i < objects.size(); ++i)
-    {
       scene_.objects.push_back({"object " + std::to_string(i), objects[i].pose, {{objects[i].shape}}});
-      scene_.objects.back().padding = padding;
-    }
-    scene_.attached.push_back({{"held", Eigen::Isometry3d::Identity(), held}, 1, {}});
-    body_ = kObject + static_cast<int>(objects.size());
+    for (WorldObject& object : scene_.objects)
+      object.padding = padding;
+    body_ += static_cast<int>(objects.size());
+  }
+
+  /// One object, which has several shapes.
+  static HeldShape inOneObject(const Shape& held, const std::vector<PlacedShape>& shapes, double padding)
+  {
+    HeldShape made(std::vector<PlacedShape>{{held}});
+    made.scene_.objects.push_back({"object", Eigen::Isometry3d::Identity(), shapes});
+    made.scene_.objects.back().padding = padding;
+    ++made.body_;
+    return made;
   }
 
   static std::vector<double> state(const Eigen::Isometry3d& pose)
@@ -56,7 +64,13 @@ class HeldShape
   int body() const { return body_; }
 
  private:
+  explicit HeldShape(const std::vector<PlacedShape>& held)
+    : scene_(robotOf("<link name=\"base\"/><link name=\"hand\"/>" + jointXml("move", "floating", "base", "hand")))
+  {
+    scene_.attached.push_back({{"held", Eigen::Isometry3d::Identity(), held}, 1, {}});
+  }
+
   PlanningScene scene_;
-  int body_;
+  int body_ = kObject;
 };
 }  // namespace gpu_planning_scene::core

@@ -12,14 +12,13 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/contacts/colliding_shapes.h"
 #include "collision/contacts/held_shape.h"
 #include "collision/geometry/primitive_solid.h"
 #include "model/math_constants.h"
 #include "oracle/oracle.h"
-#include "support/moving_shape.h"
 #include "support/repetitions.h"
 #include "support/seed.h"
-#include "support/triangle_soup.h"
 
 namespace gpu_planning_scene::core
 {
@@ -28,165 +27,7 @@ namespace
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-using Random = std::mt19937_64;
-
 constexpr double kOnBody = 1e-6;  // metres
-
-double between(Random& random, double low, double high)
-{
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-
-Vector3d randomDirection(Random& random)
-{
-  std::normal_distribution<double> normal;
-  return Vector3d(normal(random), normal(random), normal(random)).normalized();
-}
-
-/// Boxes in one mesh, each a closed component.
-std::shared_ptr<const Mesh> meshOfBoxes(const std::vector<std::array<Vector3d, 2>>& boxes)
-{
-  auto mesh = std::make_shared<Mesh>();
-  for (const auto& [size, center] : boxes)
-  {
-    const Mesh box = *tessellate(Box{size}).mesh;
-    const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
-    for (const Vector3d& vertex : box.vertices)
-      mesh->vertices.push_back(vertex + center);
-    for (const auto& t : box.triangles)
-      mesh->triangles.push_back({first + t[0], first + t[1], first + t[2]});
-  }
-  return mesh;
-}
-
-/// A closed mesh whose cross section in x and y is an L.
-std::shared_ptr<const Mesh> meshOfL(double size)
-{
-  auto mesh = std::make_shared<Mesh>();
-  const std::array<std::array<double, 2>, 6> outline = {{{0, 0}, {1, 0}, {1, 0.3}, {0.3, 0.3}, {0.3, 1}, {0, 1}}};
-  for (const double z : {-0.25, 0.25})
-    for (const auto& [x, y] : outline)
-      mesh->vertices.push_back(size * Vector3d(x - 0.5, y - 0.5, z));
-  for (const auto& [i, j, k] : {std::array<std::uint32_t, 3>{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 5}})
-  {
-    mesh->triangles.push_back({i, k, j});
-    mesh->triangles.push_back({i + 6, j + 6, k + 6});
-  }
-  for (std::uint32_t i = 0; i < 6; ++i)
-  {
-    const std::uint32_t j = (i + 1) % 6;
-    mesh->triangles.push_back({i, j, j + 6});
-    mesh->triangles.push_back({i, j + 6, i + 6});
-  }
-  return mesh;
-}
-
-/// A mesh without its last triangles.
-std::shared_ptr<const Mesh> opened(const Shape& shape, std::size_t missing)
-{
-  auto mesh = std::make_shared<Mesh>(*tessellate(shape).mesh);
-  mesh->triangles.resize(mesh->triangles.size() - missing);
-  return mesh;
-}
-
-struct Kind
-{
-  std::string name;
-  bool is_convex;
-  std::function<Shape(Random&)> make;
-};
-
-/// Kinds of shapes of 0.1 m to 0.6 m.
-std::vector<Kind> kinds()
-{
-  const auto box = [](Random& r) { return Box{{between(r, 0.1, 0.6), between(r, 0.1, 0.6), between(r, 0.1, 0.6)}}; };
-  const auto cylinder = [](Random& r) { return Cylinder{between(r, 0.05, 0.3), between(r, 0.1, 0.6)}; };
-  const auto soup = [](Random& r)
-  {
-    return triangleSoup(
-        8, [&r] { return Vector3d(between(r, -0.3, 0.3), between(r, -0.3, 0.3), between(r, -0.3, 0.3)); });
-  };
-  return {
-      {"box", true, box},
-      {"sphere", true, [](Random& r) { return Sphere{between(r, 0.05, 0.3)}; }},
-      {"cylinder", true, cylinder},
-      {"cone", true,
-       [](Random& r) {
-         return Cone{between(r, 0.05, 0.3), between(r, 0.1, 0.6)};
-       }},
-      {"mesh of a box", true, [=](Random& r) { return tessellate(box(r)).mesh; }},
-      {"mesh of a cylinder", true, [=](Random& r) { return tessellate(cylinder(r)).mesh; }},
-      {"mesh of an L", false, [](Random& r) { return meshOfL(between(r, 0.2, 0.6)); }},
-      {"mesh of a table", false,
-       [](Random&)
-       {
-         return meshOfBoxes({{Vector3d(0.6, 0.6, 0.05), Vector3d(0, 0, 0.2)},
-                             {Vector3d(0.05, 0.05, 0.4), Vector3d(0.25, 0.25, 0)},
-                             {Vector3d(0.05, 0.05, 0.4), Vector3d(-0.25, -0.25, 0)}});
-       }},
-      {"open mesh of a box", false, [=](Random& r) { return opened(box(r), 2); }},
-      {"triangles", false, soup},
-  };
-}
-
-/// Finds poses in which the held shape collides with the object: it approaches the centre of the object from a random
-/// direction, so that it is often near the surface.
-class CollidingPoses
-{
- public:
-  CollidingPoses(const Shape& held, const PlacedShape& object, double padding, std::uint64_t seed)
-    : moving_(held, {object}, {0.0, padding}), object_(object), random_(seed)
-  {
-  }
-
-  std::optional<Isometry3d> next()
-  {
-    for (int attempt = 0; attempt < 100; ++attempt)
-    {
-      Isometry3d pose = randomPose(random_, 0.0);
-      const Vector3d from = randomDirection(random_);
-      Vector3d goal = object_.pose.translation() + 0.1 * randomDirection(random_);
-      if (const auto* plane = std::get_if<HalfSpace>(&object_.shape))
-        goal -= (plane->normal.dot(goal) - plane->offset) * plane->normal + 0.3 * plane->normal;
-      double free = 1.5;
-      double colliding = 0.0;
-      const auto collides = [&](double distance)
-      {
-        pose.translation() = goal + distance * from;
-        return moving_.collides(pose);
-      };
-      if (!collides(colliding) || collides(free))
-        continue;
-      for (int i = 0; i < 20; ++i)
-      {
-        const double middle = 0.5 * (free + colliding);
-        (collides(middle) ? colliding : free) = middle;
-      }
-      // Depths from 0.1 micrometres to the sizes of the shapes.
-      const double depth = std::pow(10.0, between(random_, -7.0, -0.5));
-      if (collides(std::max(0.0, colliding - depth)))
-        return pose;
-    }
-    return std::nullopt;
-  }
-
- private:
-  MovingShape moving_;
-  PlacedShape object_;
-  Random random_;
-};
-
-oracle::Motion motionOf(const Isometry3d& pose)
-{
-  return oracle::Motion(pose);
-}
-
-/// The distance of a point from a shape, by the oracle.
-double distanceTo(const oracle::PreparedShape& shape, const Isometry3d& pose, const Vector3d& point)
-{
-  static const oracle::PreparedShape tiny{Shape(Sphere{1e-12})};
-  return oracle::distance(shape, motionOf(pose), tiny, motionOf(Isometry3d(Eigen::Translation3d(point))));
-}
 
 double reach(const Shape& shape, const Isometry3d& pose, const Vector3d& direction)
 {
@@ -241,7 +82,7 @@ void expectSeparation(const Kind& held_kind, const Kind& object_kind, std::size_
     const StateInspector inspector = held.inspector();
     const oracle::PreparedShape prepared_held(held_shape);
     const oracle::PreparedShape prepared_object(object.shape);
-    CollidingPoses colliding(held_shape, object, padding, kSeed + scene);
+    CollidingPoses colliding(held_shape, {object}, padding, kSeed + scene);
     for (std::size_t i = 0; i < poses; ++i)
     {
       const auto pose = colliding.next();
@@ -304,9 +145,7 @@ TEST(Separation, OfPaddedShapesEndsTheCollisionBetweenTheirNearestPoints)
 
 TEST(Separation, OfAHalfSpaceIsAlongItsNormal)
 {
-  const Kind half_space = {"half-space", false, [](Random& r) {
-                             return HalfSpace{randomDirection(r), between(r, -0.5, 0.5)};
-                           }};
+  const Kind half_space = halfSpaces();
   for (const Kind& held : kinds())
   {
     Random random(kSeed);
@@ -314,7 +153,7 @@ TEST(Separation, OfAHalfSpaceIsAlongItsNormal)
     const Shape shape = held.make(random);
     const HeldShape scene(shape, {{plane, Isometry3d::Identity()}});
     const StateInspector inspector = scene.inspector();
-    CollidingPoses colliding(shape, {plane, Isometry3d::Identity()}, 0.0, kSeed);
+    CollidingPoses colliding(shape, {{plane, Isometry3d::Identity()}}, 0.0, kSeed);
     SCOPED_TRACE(held.name + ", seed " + std::to_string(kSeed));
     for (int i = 0; i < repetitions(20, 10000); ++i)
     {
@@ -369,7 +208,7 @@ TEST(Separation, OfAMeshIsThatOfItsSolidOnFlatFaces)
       const PlacedShape object = {solid, randomPose(random, 1.0)};
       const StateInspector of_solid = HeldShape(shape, {object}).inspector();
       const StateInspector of_mesh = HeldShape(shape, {{tessellate(solid).mesh, object.pose}}).inspector();
-      CollidingPoses colliding(shape, object, 0.0, kSeed);
+      CollidingPoses colliding(shape, {object}, 0.0, kSeed);
       std::size_t flat = 0;
       for (int i = 0; i < repetitions(15, 1000); ++i)
       {
@@ -392,6 +231,34 @@ TEST(Separation, OfAMeshIsThatOfItsSolidOnFlatFaces)
       if (kind.is_convex)
         EXPECT_GT(flat, 0u);
     }
+}
+
+/// A ball between two plates is lifted out of them. It leaves their upper edges at a flat angle, so a depth that is a
+/// little longer than needed takes it away from them by a smaller part of this length.
+TEST(Separation, LeavesAGapAlsoWhereTheBodiesPartAtAFlatAngle)
+{
+  auto plates = std::make_shared<Mesh>();
+  for (const double x : {-0.05, 0.05})
+  {
+    const auto first = static_cast<std::uint32_t>(plates->vertices.size());
+    for (const auto& [y, z] : {std::array<double, 2>{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.0}, {-0.5, 0.0}})
+      plates->vertices.emplace_back(x, y, z);
+    plates->triangles.push_back({first, first + 1, first + 2});
+    plates->triangles.push_back({first, first + 2, first + 3});
+  }
+  for (const double radius : {0.0501, 0.0505, 0.052, 0.06})
+  {
+    SCOPED_TRACE(radius);
+    const Shape ball = Sphere{radius};
+    const Isometry3d pose = at(0.0, 0.0, -0.01);
+    const auto contacts = HeldShape(ball, {{plates, Isometry3d::Identity()}}).contacts(pose.translation());
+    ASSERT_FALSE(contacts.empty());
+    EXPECT_NEAR(contacts.front().depth, 0.01 + std::sqrt(radius * radius - 0.0025), 1e-6) << "upwards";
+    Isometry3d moved = pose;
+    moved.pretranslate(contacts.front().depth * contacts.front().normal);
+    EXPECT_EQ(oracle::Verdict::Free, oracle::verdict(oracle::PreparedShape(plates), motionOf(Isometry3d::Identity()),
+                                                     oracle::PreparedShape(ball), motionOf(moved), 0.0));
+  }
 }
 
 TEST(Separation, OfABodyOfSeveralShapesFreesAllOfThem)

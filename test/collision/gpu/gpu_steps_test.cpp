@@ -585,7 +585,7 @@ TEST_F(GpuStep, OrientedBoxesThatOverlapAreNeverApart)
 bool placedApart(OrientedNode a, Pose pose_a, OrientedNode b, Pose pose_b)
 {
   const Pose pose = relativePose(pose_a, pose_b);
-  return nodesApart(a, b, pose, boxMargin(0.0, errorOf(a, pose_a, b, pose_b, pose)));
+  return nodesApart(a, b, pose, 0.0, errorOf(a, pose_a, b, pose_b, pose));
 }
 )"),
       "placedApart(" + nodeAt(0) + ", " + poseAt(4) + ", " + nodeAt(8) + ", " + poseAt(12) + ") ? 1u : 0u", input, 48);
@@ -603,6 +603,56 @@ bool placedApart(OrientedNode a, Pose pose_a, OrientedNode b, Pose pose_b)
   EXPECT_GT(clear, kCases / 50);
   // The test uses all 15 axes, so it finds all pairs that are clearly apart.
   EXPECT_EQ(missed, 0U) << "of " << clear << ", seed " << kSeed;
+}
+
+/// Small boxes that are farther apart than a long required distance, along the line of their centres.
+TEST_F(GpuStep, BoxesAreApartAlongTheirCentersOnlyBeyondTheRequiredDistance)
+{
+  constexpr std::size_t kCases = 10000;
+  constexpr double kClear = 8e-6;  // metres; the bound for the other axes, 512 u of the distance, is larger
+  std::vector<float> input;
+  std::vector<double> beyond;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    std::array<PlacedBox, 2> boxes;
+    for (PlacedBox& box : boxes)
+    {
+      const double size = std::pow(10.0, -3.0 + uniform_(generator_));
+      box = {anyVector(0.01), size * anyVector(1.0).cwiseAbs(), anyRotation(), Eigen::Isometry3d::Identity()};
+      box.pose.linear() = anyRotation();
+      std::vector<float> rounded;
+      box.put(rounded);
+    }
+    auto& [a, b] = boxes;
+    const double required = static_cast<float>(0.5 * std::abs(uniform_(generator_)));
+    const Vector3d to = anyVector(1.0).normalized();
+    const auto reach = [&to](const PlacedBox& box)
+    { return ((box.pose.linear() * box.axes).transpose() * to).cwiseAbs().dot(box.half); };
+    beyond.push_back(uniform_(generator_) * std::pow(10.0, -6.0 + 2.0 * uniform_(generator_)));
+    b.pose.translation() =
+        a.pose * a.center - b.pose.linear() * b.center + (required + reach(a) + reach(b) + beyond.back()) * to;
+    a.put(input);
+    b.put(input);
+    input.insert(input.end(), {float(required), 0.0F, 0.0F});
+  }
+  const auto apart = run(
+      kPlacedNodes + std::string(R"(
+bool placedApart(OrientedNode a, Pose pose_a, OrientedNode b, Pose pose_b, float gap)
+{
+  const Pose pose = relativePose(pose_a, pose_b);
+  const float needed = centersMargin(gap, errorOf(a, pose_a, b, pose_b, pose)) + sizeError(a.box, b.box);
+  return apartAlongCenters(a, b, pose, needed);
+}
+)"),
+      "placedApart(" + nodeAt(0) + ", " + poseAt(4) + ", " + nodeAt(8) + ", " + poseAt(12) + ", at(16u).x) ? 1u : 0u",
+      input, 51);
+  std::size_t missed = 0;
+  for (std::size_t i = 0; i < kCases; ++i)
+  {
+    EXPECT_FALSE(beyond[i] <= 0.0 && apart[i] != 0U) << "case " << i << ", seed " << kSeed;
+    missed += beyond[i] > kClear && apart[i] == 0U ? 1 : 0;
+  }
+  EXPECT_EQ(missed, 0U) << "seed " << kSeed;
 }
 
 /// A box that overlaps a curved solid's bounding box need not be near the solid.

@@ -28,21 +28,20 @@ constexpr double kLargestMove =
     0.5;  // metres: boxes with larger displacements prove nothing, so they are halved at once
 constexpr double kBallMargin = 1e-8;  // metres: exceeds the rounding error of distances
 
-// A table ends after so many steps, which take up to a second. A step is a visit of two nodes. The tests of balls and
-// points in a box of joint values take as long as kStepsOfBox steps.
-constexpr std::uint64_t kMostTableSteps = 5'000'000;
+// The tests of balls and points in a box of joint values take as long as so many steps.
 constexpr std::uint64_t kStepsOfBox = 200;
 
 class TableMaker
 {
  public:
   TableMaker(const RobotModel& robot, const TableInstance& a, const TableInstance& b, const CpuShapePair& pairs,
-             const Stopped& stopped)
+             const Stopped& stopped, std::uint64_t most_steps)
     : robot_(robot),
       a_(a),
       b_(b),
       pairs_(pairs),
       stopped_(stopped),
+      most_steps_(most_steps),
       state_(robot.defaultState()),
       poses_(robot.links().size())
   {
@@ -83,7 +82,7 @@ class TableMaker
   {
     StopTest end_if_stopped(stopped_);
     std::deque<Box> open = {all};
-    while (!open.empty() && steps_ < kMostTableSteps)
+    while (!open.empty() && steps_ < most_steps_)
     {
       end_if_stopped();
       const Box box = open.front();
@@ -200,6 +199,7 @@ class TableMaker
   const TableInstance& b_;
   const CpuShapePair& pairs_;
   const Stopped& stopped_;
+  const std::uint64_t most_steps_;
   std::uint64_t steps_ = 0;
   std::vector<const Joint*> joints_;  // between the bodies, without fixed joints
   JointTable table_;
@@ -210,8 +210,8 @@ class TableMaker
 }  // namespace
 
 std::optional<JointTable> makeJointTable(const RobotModel& robot, const TableInstance& a, const TableInstance& b,
-                                         const CpuShapePair& pairs, const Stopped& stopped)
+                                         const CpuShapePair& pairs, const Stopped& stopped, std::uint64_t most_steps)
 {
-  return TableMaker(robot, a, b, pairs, stopped).make();
+  return TableMaker(robot, a, b, pairs, stopped, most_steps).make();
 }
 }  // namespace gpu_planning_scene::core

@@ -43,9 +43,15 @@ struct TableInstance
   double sagitta;  ///< see Tessellation
 };
 
+/// The steps after which the cells of a table that are still open stay without a proof. A step is a visit of two nodes;
+/// a second has some millions. The tables of the robots of the benchmark need at most 15 million steps, and those of
+/// large meshes that move closely past each other would need billions.
+constexpr std::uint64_t kMostTableSteps = 20'000'000;
+
 /// Makes the table of a self pair. No value if the pair depends on more than two variables, on a planar or floating
-/// joint, or on a joint without limits that is not continuous. `pairs` decides whether two trees collide. Takes up to a
-/// second: after a fixed number of steps, the cells that are still open stay without a proof. Throws ProofsStopped.
+/// joint, or on a joint without limits that is not continuous. `pairs` decides whether two trees collide. Throws
+/// ProofsStopped.
 std::optional<JointTable> makeJointTable(const RobotModel& robot, const TableInstance& a, const TableInstance& b,
-                                         const CpuShapePair& pairs, const Stopped& stopped = {});
+                                         const CpuShapePair& pairs, const Stopped& stopped = {},
+                                         std::uint64_t most_steps = kMostTableSteps);
 }  // namespace gpu_planning_scene::core

@@ -146,11 +146,14 @@ class ProofWorker
       if (const std::shared_ptr<ProofJob> job = task.job.lock())
         std::atomic_store(&job->proofs_, std::make_shared<const RobotProofs>(std::move(proofs)));
     };
+    // Not held on: a job that nobody else holds is abandoned.
+    const auto published_of = [](const std::shared_ptr<const ProofJob>& job) { return job ? job->proofs() : nullptr; };
+    const std::shared_ptr<const RobotProofs> published = published_of(task.job.lock());
     try
     {
       if (task.makes)
         return prover_.prove(*task.robot, *task.problem, task.forest, ProofCache::ofUser(), publish, is_stopped,
-                             is_paused);
+                             is_paused, published.get());
       prover_.load(*task.robot, *task.problem, task.forest, ProofCache::ofUser(), publish, is_stopped);
     }
     catch (const std::exception&)

@@ -14,7 +14,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kMostTables = 1000;  // of a problem; a table takes up to 64 kB and a second
+constexpr std::size_t kMostTables = 1000;  // of a problem; a table takes up to 64 kB and some seconds
 
 template <class T>
 bool isSame(const std::weak_ptr<T>& a, const std::weak_ptr<T>& b)
@@ -213,7 +213,7 @@ void RobotProver::load(const RobotModel& robot, const CollisionProblem& problem,
 
 bool RobotProver::prove(const RobotModel& robot, const CollisionProblem& problem,
                         const std::shared_ptr<const CpuForest>& forest, const ProofCache& cache, const Publish& publish,
-                        const Stopped& stopped, const Stopped& paused)
+                        const Stopped& stopped, const Stopped& paused, const RobotProofs* published)
 {
   forgetUnused();
   Found found;
@@ -239,12 +239,16 @@ bool RobotProver::prove(const RobotModel& robot, const CollisionProblem& problem
   findTables(robot, problem, *forest, cache, found);
   bool is_complete = found.missing.empty();
   found.proofs.has_all_tables = is_complete;
-  publish(found.proofs);
+  // A checker that gets other proofs makes its lanes again.
+  if (!published || !published->isSame(found.proofs))
+    publish(found.proofs);
   if (!is_complete)
   {
+    const RobotProofs before = found.proofs;
     is_complete = makeTables(robot, problem, forest, cache, found, stopped, paused);
     found.proofs.has_all_tables = is_complete;
-    publish(std::move(found.proofs));
+    if (!found.proofs.isSame(before))
+      publish(std::move(found.proofs));
   }
   if (!shapes.empty() || !found.missing.empty())
     cache.removeOldest();

@@ -24,6 +24,12 @@ struct RobotProofs
   std::vector<std::shared_ptr<const BallCover>> covers;   ///< one per robot instance of the problem
   std::vector<std::shared_ptr<const JointTable>> tables;  ///< one per self pair; null: none, or not made yet
   bool has_all_tables = false;                            ///< no table is still to be made
+
+  /// Whether both are the same objects.
+  bool isSame(const RobotProofs& other) const
+  {
+    return covers == other.covers && tables == other.tables && has_all_tables == other.has_all_tables;
+  }
 };
 
 /// The proofs that are available.
@@ -48,13 +54,15 @@ class RobotProver
 
   /// Takes proofs from the cache, makes the missing ones on all cores, and stores them in the cache. This takes seconds
   /// for a new robot. Publishes as soon as it has all covers, with the tables that are known or in the cache. If tables
-  /// are missing, it publishes again when they are made.
+  /// are missing, it publishes again when they are made. `published`: the newest proofs that it has published for this
+  /// problem, which it does not publish again; null: none.
   ///
   /// If `stopped` returns true, the work ends within milliseconds. If `paused` returns true, no further cover or table
   /// is begun; each call makes at least one. Returns whether there is nothing more to make. After a pause, another call
   /// goes on, because covers and tables are kept.
   bool prove(const RobotModel& robot, const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest,
-             const ProofCache& cache, const Publish& publish, const Stopped& stopped, const Stopped& paused = {});
+             const ProofCache& cache, const Publish& publish, const Stopped& stopped, const Stopped& paused = {},
+             const RobotProofs* published = nullptr);
 
  private:
   struct KnownShape
