@@ -118,7 +118,7 @@ TEST_F(SolidsOfAFile, WithAWrongRuleNameTheirLine)
   EXPECT_EQ(0u, fault("world: {}\nlink_solid: [{link_name: card, solid: filled}]")
                     .find("scene.yaml:2: the robot has no link 'card'"))
       << fault("world: {}\nlink_solid: [{link_name: card, solid: filled}]");
-  EXPECT_EQ("scene.yaml:2: unknown key 'rule'; did you mean 'solid'?",
+  EXPECT_EQ("scene.yaml:2: unknown key 'rule' in 'link_solid'; it has 'link_name' and 'solid'",
             fault("world: {}\nlink_solid: [{link_name: cart, rule: filled}]"));
 }
 
