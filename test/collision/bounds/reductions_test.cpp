@@ -373,7 +373,7 @@ TEST(WarningsOfAScene, NameABodyBeyondTheRangeInWhichAnswersAreExact)
   const auto warnings = [](const PlanningScene& scene) { return warningsOfScene(scene, SceneReport()); };
   PlanningScene near(robot_at("990"));
   EXPECT_TRUE(warnings(near).empty());
-  for (const PlanningScene& far : {PlanningScene(robot_at("1001")), PlanningScene(robot_at("-1e6"))})
+  for (const PlanningScene& far : {PlanningScene(robot_at("1001")), PlanningScene(robot_at("-9e5"))})
   {
     ASSERT_EQ(1U, warnings(far).size());
     EXPECT_EQ(0U, warnings(far)[0].find("'base' is more than 1 km from the origin of the planning frame"));
