@@ -20,6 +20,7 @@ class SolidParameters : public testing::Test
                   "<robot name='r'><link name='part'><collision><geometry><mesh filename='file://" + mesh +
                       "'/></geometry></collision></link></robot>");
     node.setParam("robot_description_semantic", "");
+    own.setParam("mesh/roots", std::vector<std::string>{folder.path("")});
   }
   ~SolidParameters() override { ros::NodeHandle().deleteParam("/solids"); }
 
