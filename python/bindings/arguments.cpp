@@ -9,6 +9,7 @@
 
 #include "bindings/named_rows.h"
 #include "gpu_planning_scene/error.h"
+#include "model/text/utf8.h"
 #include "scene/rigid_pose.h"
 
 namespace gpu_planning_scene::python
@@ -233,7 +234,7 @@ core::MeshAccess meshesFrom(py::handle files)
 void warnOf(const std::vector<std::string>& warnings)
 {
   for (const std::string& warning : warnings)
-    if (PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0)
+    if (PyErr_WarnEx(PyExc_UserWarning, core::inUtf8(warning).c_str(), 1) != 0)
       throw py::error_already_set();
 }
 }  // namespace gpu_planning_scene::python

@@ -1,5 +1,8 @@
+#include <exception>
+
 #include "bindings/bindings.h"
 #include "gpu_planning_scene/error.h"
+#include "model/text/utf8.h"
 
 // The extension module of the Python package gpu_planning_scene.
 namespace gpu_planning_scene::python
@@ -18,6 +21,24 @@ void addErrors(pybind11::module_& module)
       "error is no longer usable: create a new one.";
   for (pybind11::object exception : {pybind11::object(error), pybind11::object(lost)})
     exception.attr("__module__") = "gpu_planning_scene";
+  // Python would drop a message that is not UTF-8, for example because of the name of a file. pybind11 passes what this
+  // translator throws to the other ones.
+  pybind11::register_exception_translator(
+      [](std::exception_ptr exception)
+      {
+        try
+        {
+          std::rethrow_exception(exception);
+        }
+        catch (const core::DeviceLost& fault)
+        {
+          throw core::DeviceLost(core::inUtf8(fault.what()));
+        }
+        catch (const core::Error& fault)
+        {
+          throw core::Error(core::inUtf8(fault.what()));
+        }
+      });
 }
 }  // namespace
 }  // namespace gpu_planning_scene::python

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "gpu_planning_scene/error.h"
+#include "model/text/number_text.h"
 
 namespace gpu_planning_scene::core
 {
@@ -12,7 +13,7 @@ void requirePositive(double value, const char* dimension, const std::string& whe
 {
   if (!(value > 0.0) || value > kLargestLength)
   {
-    throw Error(where + ": the " + dimension + " is " + std::to_string(value) +
+    throw Error(where + ": the " + dimension + " is " + numberText(value) +
                 ", it must be positive and at most 1000 km");
   }
 }

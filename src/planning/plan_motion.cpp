@@ -22,6 +22,7 @@
 #include "gpu_planning_scene/planning/state_validity_checker.h"
 #include "model/joint_limits.h"
 #include "model/seconds_since.h"
+#include "model/text/number_text.h"
 #include "planning/checked_endpoints.h"
 #include "planning/counted_checker.h"
 #include "planning/planner_parameters.h"
@@ -56,7 +57,7 @@ void refuseManyTurns(const RobotModel& robot, const std::vector<double>& row, co
     const int angle = joint.mimic ? -1 : wrappedAngle(joint);
     if (angle >= 0 && std::abs(row[static_cast<std::size_t>(angle)]) > kLargestProvenAngle)
       throw Error(what + ": " + robot.variables()[static_cast<std::size_t>(angle)].name + " is " +
-                  std::to_string(row[static_cast<std::size_t>(angle)]) + " rad; it must be from -1e6 to 1e6");
+                  numberText(row[static_cast<std::size_t>(angle)]) + " rad; it must be from -1e6 to 1e6");
   }
 }
 

@@ -40,13 +40,11 @@ class Painter
     }
   }
 
-  /// Triangles that bound no solid have a tinge of violet.
-  void addMesh(const Tessellation& tessellation, const Eigen::Isometry3d& pose, const BodyColor& color)
+  /// `open`: the colour of triangles that bound no solid.
+  void addMesh(const Tessellation& tessellation, const Eigen::Isometry3d& pose, const BodyColor& color,
+               const BodyColor& open)
   {
     const Mesh& mesh = *tessellation.mesh;
-    BodyColor open = color;
-    for (std::size_t i = 0; i < 3; ++i)
-      open[i] = static_cast<std::uint8_t>((open[i] + 2 * kOpen[i]) / 3);
     std::vector<Eigen::Vector3d> placed;
     placed.reserve(mesh.vertices.size());
     for (const Eigen::Vector3d& vertex : mesh.vertices)
@@ -176,6 +174,14 @@ BodyColor bodyColor(const PlanningScene& scene, std::size_t body)
   return kCarried;
 }
 
+BodyColor openColor(const BodyColor& color)
+{
+  BodyColor open = color;
+  for (std::size_t i = 0; i < 3; ++i)
+    open[i] = static_cast<std::uint8_t>((open[i] + 2 * kOpen[i]) / 3);
+  return open;
+}
+
 std::set<std::size_t> bodiesOf(const std::vector<BodyPair>& pairs)
 {
   std::set<std::size_t> bodies;
@@ -231,7 +237,9 @@ Drawing drawingOf(const PlanningScene& scene, const double* state, const std::ve
   for (std::size_t body = 0; body < poses.size(); ++body)
   {
     const std::size_t begin = drawing.vertices.size();
-    const BodyColor color = red.count(body) != 0 ? collidingColor(scene, body) : bodyColor(scene, body);
+    const bool is_red = red.count(body) != 0;
+    const BodyColor color = is_red ? collidingColor(scene, body) : bodyColor(scene, body);
+    const BodyColor open = is_red ? color : openColor(color);
     for (const PlacedShape& shape : bodyShapes(scene, body))
     {
       const Eigen::Isometry3d pose = poses[body] * shape.pose;
@@ -241,12 +249,12 @@ Drawing drawingOf(const PlanningScene& scene, const double* state, const std::ve
         has_plane = true;
       }
       else
-        painter.addMesh(tessellations.of(shape.shape), pose, color);
+        painter.addMesh(tessellations.of(shape.shape), pose, color, open);
     }
     const std::size_t end = drawing.vertices.size();
     const bool is_object = body >= links && body < links + scene.objects.size();
     if (begin != end && !is_object)
-      drawing.robot.push_back({begin, end, red.count(body) != 0});
+      drawing.robot.push_back({begin, end, is_red});
     if (body < links)
       drawing.links_end = end;
     if (body < links || is_object)
@@ -255,7 +263,8 @@ Drawing drawingOf(const PlanningScene& scene, const double* state, const std::ve
   drawing.bodies_end = drawing.vertices.size();
   const Shape dot = Sphere{0.5 * contactDiameter(scene, poses, colliding, near)};
   for (const Eigen::Vector3d& point : contact_points)
-    painter.addMesh(tessellations.of(dot), Eigen::Isometry3d(Eigen::Translation3d(point)), kContactColor);
+    painter.addMesh(tessellations.of(dot), Eigen::Isometry3d(Eigen::Translation3d(point)), kContactColor,
+                    kContactColor);
   drawing.contacts_end = drawing.vertices.size();
   if (!has_plane)
     addFloor(near, up, drawing, painter);

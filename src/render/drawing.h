@@ -28,6 +28,10 @@ BodyColor bodyColor(const PlanningScene& scene, std::size_t body);
 /// The colour of a body that collides: red, and dark red for objects of the world.
 BodyColor collidingColor(const PlanningScene& scene, std::size_t body);
 
+/// The colour of triangles that bound no solid, on a body of this colour: a tinge of violet. Bodies that collide have
+/// no such tinge, so that they stay red.
+BodyColor openColor(const BodyColor& color);
+
 /// The shapes of a link, an object or an attached object.
 const std::vector<PlacedShape>& bodyShapes(const PlanningScene& scene, std::size_t body);
 

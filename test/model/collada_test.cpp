@@ -76,11 +76,18 @@ TEST_F(Collada, ALookAtLooksAlongMinusZWithYUpwards)
   expectPlaced(daeText(triangle(), "Z_UP", 1.0, "<lookat>1 2 3 5 2 3 1 0 1</lookat>"), pose);
 }
 
+TEST_F(Collada, ASkewOfNoDegreesChangesNothing)
+{
+  expectPlaced(daeText(triangle(), "Z_UP", 1.0, "<translate>1 2 3</translate><skew>0 0 0 0 0 0 0</skew>"),
+               Eigen::Affine3d(Eigen::Translation3d(1, 2, 3)));
+}
+
 TEST_F(Collada, TransformsThatCannotBeReadAreNamed)
 {
   const auto error = [&](const std::string& transform)
   { return errorOfReading(daeText(triangle(), "Z_UP", 1.0, transform)); };
   EXPECT_NE(error("<skew>45 0 1 0 1 0 0</skew>").find("<skew>: programs do not agree"), std::string::npos);
+  EXPECT_NE(error("<skew>0 0 1 0</skew>").find("<skew>: it has 4 numbers, not 7"), std::string::npos);
   EXPECT_NE(error("<translate>1 2</translate>").find("<translate>: it has 2 numbers, not 3"), std::string::npos);
   EXPECT_NE(error("<rotate>0 0 0 90</rotate>").find("length 0"), std::string::npos);
   EXPECT_NE(error("<lookat>1 2 3 1 2 3 0 0 1</lookat>").find("length 0"), std::string::npos);

@@ -127,6 +127,15 @@ const std::vector<Fault>& faults()
       {"CollisionInAJoint", 16, true, "<collision/>", "joint 'j': <collision> does not belong in <joint>"},
       {"CollisionInAVisual", 8, true, "<visual><collision/></visual>",
        "link 'a': <collision> does not belong in <visual>"},
+      {"LinkInAnUnknownElement", 18, true,
+       "<model><link name='d'><collision><geometry><box size='1 1 1'/></geometry></collision></link></model>",
+       "<collision> in the unknown element <model> would not be read; remove <model>, or move its content out of it"},
+      {"JointInAnUnknownElement", 18, true,
+       "<part><joint name='d' type='fixed'><parent link='a'/><child link='d'/></joint></part>",
+       "<joint> in the unknown element <part> would not be read"},
+      {"CollisionInAnUnknownElement", 8, true,
+       "<physics><collision><geometry><box size='1 1 1'/></geometry></collision></physics>",
+       "link 'a': <collision> in the unknown element <physics> would not be read"},
       {"JointInALink", 8, true, "<joint name='d' type='fixed'/>", "link 'a': <joint> does not belong in <link>"},
   };
   return all;
@@ -156,7 +165,8 @@ TEST(UrdfNames, OfExtensionsAndNewerVersionsPassInSilence)
            {4, "<!-- <origin/> -->"},
            {6, "<drake:ellipsoid a='1' b='1' c='1'/>"},
            {14, "<dynamics damping='1'/><calibration rising='0'/><hardwareInterface/>"},
-           {18, "<gazebo><link/><collision/><joint/><origin/><pose/></gazebo><ros2_control/>"},
+           {18, "<gazebo><link/><collision/><joint/><origin/><pose/></gazebo>"},
+           {18, "<ros2_control><joint name='j'><command_interface name='position'/></joint></ros2_control>"},
            {18, "<transmission><joint name='j'/><actuator/></transmission>"},
            {18, "<loop_joint name='l'><link1 link='a' xyz='0 0 0'/></loop_joint>"}})
   {

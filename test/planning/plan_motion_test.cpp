@@ -411,7 +411,7 @@ TEST_F(BaseGoals, StayWithinTheLimitsOfTheJoint)
 TEST_F(BaseGoals, BeyondAMillionRadiansAreRefused)
 {
   wanted.goals = {{0.0, 0.0, 2e9}};
-  EXPECT_EQ("goal 0: drive/theta is 2000000000.000000 rad; it must be from -1e6 to 1e6", errorOf([this] { plan(); }));
+  EXPECT_EQ("goal 0: drive/theta is 2e+09 rad; it must be from -1e6 to 1e6", errorOf([this] { plan(); }));
 }
 
 /// A body that moves in the plane, and a body that floats.

@@ -53,6 +53,20 @@ class Planning(Case):
         path(None)
         self.assertEqual(expected, path(3))
 
+    def test_a_base_is_planned_for_within_the_workspace(self):
+        srdf = ('<robot name="rail"><virtual_joint name="base" type="planar" parent_frame="map" child_link="rail"/>'
+                '<group name="all"><joint name="base"/></group></robot>')
+        scene = gps.PlanningScene(gps.RobotModel.from_xml(RAIL, srdf))
+        scene.current_state = [0.0, 0.0, 0.0, 0.0]
+        checker = gps.StateChecker(scene, device="cpu")
+        start, goal = [0.0, 0.0, 0.0, 0.0], [5.0, -3.0, 1.0, 0.0]
+        outside = gps.plan_motion(checker, "all", start, goal)
+        self.assertEqual(gps.PlanningStatus.OUT_OF_BOUNDS, outside.status)
+        self.assertIn("set a larger unbounded_translation, or give the request a workspace", outside.message)
+        inside = gps.plan_motion(checker, "all", start, goal, workspace=([-6, -6, 0], [6, 6, 0]))
+        self.assertEqual((gps.PlanningStatus.SOLVED, ""), (inside.status, inside.message))
+        np.testing.assert_allclose(goal, inside.waypoints[-1], atol=1e-9)
+
     def test_a_search_ends_after_its_rounds(self):
         scene = gps.PlanningScene(rail())
         scene.add_object("wall", gps.Box([0.1, 1, 1]), [1, 0, 0])

@@ -10,6 +10,10 @@ import gpu_planning_scene as gps
 from robots import ARM_SCENE, Case, arm, arm_scene, rail
 
 TETRAHEDRON = ([[0, 0, 0], [0.2, 0, 0], [0, 0.2, 0], [0, 0, 0.2]], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+# A cube of 2 m without its side at x > 0, and this side.
+CUBE = [[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+TROUGH = [[0, 1, 3], [0, 3, 2], [0, 4, 5], [0, 5, 1], [2, 3, 7], [2, 7, 6], [0, 2, 6], [0, 6, 4], [1, 5, 7], [1, 7, 3]]
+SIDE = [[4, 6, 7], [4, 7, 5]]
 
 
 def verdicts(scene, positions):
@@ -37,6 +41,13 @@ class PlanningScene(Case):
         self.assert_one_line(gps.Error, "not YAML", gps.load_scene_text, "world: [", robot)
         self.assert_one_line(gps.Error, "holds no YAML value", gps.load_scene_text, "", robot)
         self.assert_one_line(TypeError, "expected a RobotModel, but got None", gps.load_scene_text, text, None)
+
+    def test_a_file_in_iso_8859_1_is_read(self):
+        text = "world: {collision_objects: [{id: Tréteau, primitives: [{type: sphere, dimensions: [1]}]}]}"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "scene.yaml")
+            path.write_bytes(text.encode("latin-1"))
+            self.assertIn("Tréteau", gps.load_scene_file(path, rail()).body_names)
 
     def test_text_of_rviz_is_known_by_its_name(self):
         text = "scene\n* can\n1\nsphere\n0.1\n0.5 0 0\n0 0 0 1\n0 0 0 0\n.\n"
@@ -82,6 +93,25 @@ class PlanningScene(Case):
         scene.add_object("part", gps.Mesh(*TETRAHEDRON), pose=[5, -0.05, -0.05])
         self.assertEqual([False, True, False, True], verdicts(scene, [-2.9001, -2.8999, 2.5999, 2.6001]))
         self.assertEqual([True, False, False, True], verdicts(scene, [4.89, 4.91, 5.1, 5.4]))
+
+    def test_a_mesh_has_inside_what_its_rule_says(self):
+        for triangles, rule, kinds, free in (
+            (TROUGH + SIDE, "auto", [], False), (TROUGH + SIDE, "surface", ["surface"], True),
+            (TROUGH, "auto", ["surface"], True), (TROUGH, "surface", ["surface"], True),
+            (TROUGH, "filled", ["filled"], False), (TROUGH + [SIDE[0]], "auto", ["filled"], False),
+            (TROUGH + [SIDE[0], SIDE[1][::-1]], "auto", ["mended"], False),
+        ):
+            mesh = gps.Mesh(CUBE, triangles, name="bin.stl", solid=rule)
+            scene = gps.PlanningScene(rail())
+            scene.add_object("bin", mesh)
+            what = f"{len(triangles)} triangles, {rule}"
+            self.assertEqual(rule, scene.objects[0].shapes[0][0].solid)
+            self.assertEqual([free, False], verdicts(scene, [0, -1]), what)  # the ball is inside, or on a side
+            parts = scene.open_parts()
+            self.assertEqual(kinds, [part["kind"] for part in parts], what)
+            self.assertTrue(all((part["body"], part["mesh"]) == ("bin", "bin.stl") for part in parts))
+        self.assert_one_line(gps.Error, "solid: 'full' is unknown; known are auto, surface and filled", gps.Mesh, CUBE,
+                             TROUGH, solid="full")
 
     def test_an_object_has_several_shapes_each_with_a_pose(self):
         scene = gps.PlanningScene(rail())

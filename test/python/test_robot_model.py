@@ -1,6 +1,7 @@
 """RobotModel: files and texts, packages, names, forward kinematics, random states."""
 import contextlib
 import io
+import os
 import pathlib
 import sys
 import tempfile
@@ -193,6 +194,15 @@ class RobotModel(Case):
                 self.assertEqual("Kugel für é", robot.links[1].name)
                 self.assertEqual("Kugel für é", RobotBundle.from_files(urdf).load().links[1].name)
 
+    def test_messages_need_not_be_utf_8(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.fsdecode(os.path.join(os.fsencode(folder), b"\xe9.urdf"))
+            self.assert_one_line(gps.Error, "cannot read URDF '.*/é.urdf'", gps.RobotModel.from_files, path)
+            planning = pathlib.Path(folder, "limits.yaml")
+            planning.write_bytes("joint_limits: {é: {max_position: 1}}".encode("latin-1"))
+            with self.assertWarnsRegex(UserWarning, "the robot does not have the joint: é"):
+                gps.RobotModel.from_files(ARM, planning=planning)
+
     def test_a_named_state_has_poses_if_it_sets_all_variables(self):
         robot = arm()
         self.assert_one_line(gps.Error, "^states: the state 'ready' of the SRDF has no value for grip; give numbers",
@@ -273,6 +283,20 @@ class RobotModel(Case):
 
         with self.assertRaisesRegex(LookupError, "no crane"):
             gps.RobotModel.from_xml(WITH_MESH.format("package://crane/part.obj"), packages=fail)
+
+    def test_links_have_rules_for_their_solids(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "part.obj")
+            path.write_text(MESH, encoding="utf-8")
+            robot = gps.RobotModel.from_xml(WITH_MESH.format(path))
+            self.assertEqual("filled", gps.Mesh.from_file(path, solid="filled").solid)
+        link = robot.links[0].name
+        filled = robot.with_solids({link: "filled"})
+        self.assertEqual(["auto", "filled"], [model.links[0].shapes[0][0].solid for model in (robot, filled)])
+        self.assert_one_line(gps.Error, "solid of link 'nose': the robot has no such link", robot.with_solids,
+                             {"nose": "filled"})
+        self.assert_one_line(gps.Error, "'full' is unknown; known are auto, surface and filled", robot.with_solids,
+                             {link: "full"})
 
     def test_mesh_files_are_read_in_another_process(self):
         """Another process does not have the files that are open here, so it cannot follow this link."""

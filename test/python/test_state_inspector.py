@@ -45,6 +45,22 @@ class StateInspector(Case):
         np.testing.assert_allclose([1, 0, 0], contact.normal, atol=1e-2)
         self.assertEqual([], inspector.contacts([0.0]))
 
+    def test_links_that_touch_have_no_negative_depth(self):
+        shapes = ('<sphere radius="0.1"/>', '<box size="0.2 0.2 0.2"/>', '<cylinder radius="0.1" length="0.2"/>')
+        link = '<link name="{}"><collision><geometry>{}</geometry></collision></link>'
+        joint = ('<joint name="slide" type="prismatic"><parent link="a"/><child link="b"/><origin xyz="0.1 0 0"/>'
+                 '<axis xyz="1 0 0"/><limit lower="-1" upper="1" effort="1" velocity="1"/></joint>')
+        for first in shapes:
+            for second in shapes:
+                urdf = f'<robot name="r">{link.format("a", first)}{link.format("b", second)}{joint}</robot>'
+                inspector = gps.StateInspector(gps.PlanningScene(gps.RobotModel.from_xml(urdf, '<robot name="r"/>')))
+                touching = 0
+                for beyond in np.linspace(-5e-10, 5e-10, 11):  # metres; up to 1e-9 m is a collision
+                    for contact in inspector.contacts([0.1 + beyond]):
+                        self.assertGreaterEqual(contact.depth, 0, (first, second, beyond))
+                        touching += 1
+                self.assertGreater(touching, 5, (first, second))
+
     def test_contacts_are_those_of_pairs_that_collide(self):
         scene = kr5_scene()
         states = scene.robot.random_states(50, seed=2)

@@ -61,6 +61,11 @@ bool isTan(int red, int green, int blue)
   return 10 * red > 13 * blue && red >= green && green > blue;
 }
 
+bool isViolet(int red, int green, int blue)
+{
+  return 10 * blue > 12 * green && 10 * red > 11 * green && blue > red;
+}
+
 /// The share of the pixels for which `is_color` is true.
 double shareOf(const Image& image, IsColor is_color)
 {
@@ -80,6 +85,24 @@ TEST_F(Render, BodiesThatCollideAreRedAndNoOthers)
   EXPECT_GT(shareOf(free, isBackgroundOrFloor), 0.3) << "the camera is inside of something";
   const Image hit = pictureOf(scene, cartAt(scene, 0.9));
   EXPECT_GT(shareOf(hit, isRed), 0.02);
+}
+
+TEST_F(Render, TrianglesThatBoundNoSolidAreVioletUnlessTheirBodyCollides)
+{
+  PlanningScene scene(sliderRobotOfMeshes());
+  const std::vector<double> state = scene.robot->defaultState();
+  const auto picture = [&](const std::vector<BodyPair>& colliding)
+  {
+    return render(scene, state.data(), colliding, {}, viewsOf(scene, state.data(), Eigen::Vector3d::UnitZ())[0], kWidth,
+                  kHeight, "software");
+  };
+  const int pole = scene.robot->linkIndex("pole");  // lacks a side
+  EXPECT_GT(shareOf(picture({}), isViolet), 0.005);
+  const Image hit = picture({{pole, pole}});
+  EXPECT_EQ(shareOf(hit, isViolet), 0.0);
+  EXPECT_GT(shareOf(hit, isRed), 0.005);
+  scene.robot = scene.robot->withSolids({{"pole", SolidRule::Filled}});
+  EXPECT_EQ(shareOf(picture({}), isViolet), 0.0);
 }
 
 TEST_F(Render, TheSameSceneGivesTheSamePicture)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "scene/solid_rules.h"
 #include "scene/validate_scene.h"
 
 namespace gpu_planning_scene::core
@@ -160,6 +161,7 @@ void expectSameScene(const PlanningScene& expected, const PlanningScene& found, 
   EXPECT_EQ(expected.name, found.name);
   EXPECT_EQ(expected.robot->name(), found.robot->name());
   EXPECT_EQ(expected.robot->linkScale(), found.robot->linkScale());
+  EXPECT_EQ(solidRulesOf(expected), solidRulesOf(found));
   EXPECT_EQ(expected.link_padding, found.link_padding);
   EXPECT_TRUE(expected.allowed_collisions == found.allowed_collisions);
   EXPECT_EQ(expected.matrix_source, found.matrix_source);

@@ -11,6 +11,8 @@ TEST_F(RandomChanges, TheirDifferenceLeadsFromOneSceneToTheOther)
   const unsigned value = std::random_device()();
   seed(value);
   SCOPED_TRACE("seed " + std::to_string(value));
+  has_solids_ = true;
+  scene_ = PlanningScene(sliderRobotOfMeshes());
   defaults_.object_padding = 0.125;
   defaults_.attached_padding = 0.25;
   std::size_t made = 0;
@@ -49,10 +51,15 @@ TEST_F(RandomChanges, NothingLeadsFromASceneToItself)
 {
   change(objectChange(Operation::Add, "a", {boxAt(0.1), triangleAt()}));
   change(attachedChange(Operation::Add, "b", "pole", {boxAt(0.1)}));
+  SceneChange rules;
+  rules.is_diff = true;
+  rules.solids = {{"a", SolidRule::Filled}};
+  apply(rules);
   const SceneChange none = diffOf(scene_, scene_);
   EXPECT_TRUE(none.is_diff);
   EXPECT_TRUE(none.objects.empty() && none.state.attached.empty() && none.state.variables.empty());
-  EXPECT_TRUE(!none.matrix && none.link_padding.empty() && none.link_scale.empty() && none.colors.empty());
+  EXPECT_TRUE(!none.matrix && none.link_padding.empty() && none.link_scale.empty() && none.colors.empty() &&
+              none.solids.empty());
 }
 
 TEST_F(RandomChanges, TouchLinksAloneAreADifference)

@@ -67,7 +67,7 @@ octomap::OcTree read(const SerializedOctree& octree)
   return tree;
 }
 
-std::string errorOf(const SerializedOctree& octree, std::size_t max_leaves = kNoLimit)
+std::string errorOfOctree(const SerializedOctree& octree, std::size_t max_leaves = kNoLimit)
 {
   try
   {
@@ -82,7 +82,7 @@ std::string errorOf(const SerializedOctree& octree, std::size_t max_leaves = kNo
 
 void expectError(const std::string& fragment, const SerializedOctree& octree, std::size_t max_leaves = kNoLimit)
 {
-  const std::string error = errorOf(octree, max_leaves);
+  const std::string error = errorOfOctree(octree, max_leaves);
   EXPECT_NE(error.find(fragment), std::string::npos) << "found: " << error;
   EXPECT_EQ(error.find('\n'), std::string::npos);
 }
@@ -167,7 +167,7 @@ TEST(Octomap, WithWrongDataIsRefused)
     longer.bytes.push_back(0);
     expectError("1 bytes follow the end", longer);
     expectError("more than 1 occupied leaves", good, 1);
-    EXPECT_EQ("", errorOf(good, 2));
+    EXPECT_EQ("", errorOfOctree(good, 2));
   }
   SerializedOctree other = serialized(tree, true);
   other.id = "OcTreeStamped";

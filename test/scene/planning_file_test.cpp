@@ -62,6 +62,17 @@ TEST(PlanningFile, WithAMisspeltLimitIsRefused)
             faultOf("joint_limits: {elbow: {has_position_limit: true}}"));
 }
 
+TEST(PlanningFile, WithLimitsInTheWrongPlaceIsRefused)
+{
+  EXPECT_EQ("limits.yaml:2: 'joint_limits' is in 'robot_description_planning'; it must be at the top of the file",
+            faultOf("robot_description_planning:\n  joint_limits: {elbow: {max_position: 1}}"));
+  EXPECT_EQ(
+      "limits.yaml:2: 'elbow' has a position limit and is not in joint_limits; write joint_limits: {elbow: "
+      "{max_position: ...}}",
+      faultOf("joint_limits: {wrist: {max_position: 1}}\nelbow: {max_position: 1}"));
+  EXPECT_EQ("", faultOf("cartesian_limits: {max_trans_vel: 1}\njoint_limits: {wrist: {max_position: 1}}"));
+}
+
 TEST(PlanningFile, ThatContradictsItselfGivesAWarning)
 {
   std::vector<std::string> warnings;

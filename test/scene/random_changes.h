@@ -3,6 +3,7 @@
 #include <random>
 
 #include "scene/change_testing.h"
+#include "scene/solid_rules.h"
 
 namespace gpu_planning_scene::core
 {
@@ -50,6 +51,24 @@ class RandomChanges : public SceneChanges
       object.subframes[id()] = pose();
   }
 
+  /// The names of links and objects that may have a rule for their solid.
+  std::vector<std::string> namesWithMeshes() const
+  {
+    std::vector<std::string> names;
+    const auto add = [&names](const std::string& name, const std::vector<PlacedShape>& shapes)
+    {
+      if (solidRuleOf(shapes))
+        names.push_back(name);
+    };
+    for (const Link& link : scene_.robot->links())
+      add(link.name, link.shapes);
+    for (const WorldObject& object : scene_.objects)
+      add(object.id, object.shapes);
+    for (const AttachedObject& attached : scene_.attached)
+      add(attached.object.id, attached.object.shapes);
+    return names;
+  }
+
   SceneChange randomChange()
   {
     SceneChange change;
@@ -85,10 +104,14 @@ class RandomChanges : public SceneChanges
       fill(object);
       change.objects.push_back(object);
     }
+    if (const std::vector<std::string> names = namesWithMeshes(); has_solids_ && !names.empty() && chance())
+      change.solids[names[upTo(names.size() - 1)]] = static_cast<SolidRule>(upTo(2));
     return change;
   }
 
   void seed(unsigned value) { random_.seed(value); }
+
+  bool has_solids_ = false;  ///< whether the changes have rules for solids
 
  private:
   std::mt19937 random_;

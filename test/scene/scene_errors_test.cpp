@@ -74,6 +74,8 @@ const std::vector<WrongScene>& wrongScenes()
       {"AList", "- a\n- b\n", 1, "key: value"},
       {"NotAScene", "group_name: arm\nplanner_id: RRT\n", 1, "not a planning scene"},
       {"AnAliasToItself", "name: &x [*x]\n", 1, "alias"},
+      {"StarWithoutQuotationMarks", "world: {}\nallowed_collisions: [[floor, *]]\n", 2, "\"*\" needs quotation marks"},
+      {"StarBeforeAName", "allowed_collisions:\n- [*, floor]\n", 2, "\"*\" needs quotation marks"},
       {"DocumentsWithoutEnd", ",s_f{{{{{{{is_diff: {{{{{{{{", 1, "not YAML"},
       {"AliasesThatMultiply",
        "a: &a [x, x, x, x, x, x, x, x, x, x]\nb: &b [*a, *a, *a, *a, *a, *a, *a, *a, *a, *a]\n"

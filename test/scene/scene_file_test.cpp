@@ -671,6 +671,20 @@ TEST_F(SceneFile, MeshesMayBeFiles)
   EXPECT_EQ(2.0, scaled->vertices[scaled->triangles[0][1]].x());
 }
 
+TEST_F(SceneFile, NamesInIso88591AreUtf8)
+{
+  const std::string utf8 =
+      "world: {collision_objects: [{id: Tr\xC3\xA9teau, primitives: [{type: sphere, dimensions: [1]}]}]}";
+  std::string iso = utf8;
+  iso.replace(iso.find("\xC3\xA9"), 2, "\xE9");
+  EXPECT_EQ("Tr\xC3\xA9teau", load(utf8).objects.at(0).id);
+  EXPECT_EQ("Tr\xC3\xA9teau", load(iso).objects.at(0).id);
+  const std::string text = "sc\xE8ne\n* Tr\xE9teau\n1\nsphere\n0.1\n0 0 0\n0 0 0 1\n0 0 0 0\n.\n";
+  const PlanningScene scene = loadSceneFile(folder.write("a.scene", text), sliderRobot(), packages);
+  EXPECT_EQ("sc\xC3\xA8ne", scene.name);
+  EXPECT_EQ("Tr\xC3\xA9teau", scene.objects.at(0).id);
+}
+
 TEST_F(SceneFile, AliasesStandForTheirValue)
 {
   const PlanningScene scene = load(

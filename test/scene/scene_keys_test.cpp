@@ -106,6 +106,10 @@ link_scale:
   -
     link_name: cart
     scale: 1.1
+link_solid:
+  -
+    link_name: cart
+    solid: surface
 object_colors:
   -
     id: shelf
@@ -148,6 +152,7 @@ world:
       plane_poses:
         -
           position: [0, 0, 0]
+      solid: filled
       subframe_names: [top]
       subframe_poses:
         -
@@ -186,7 +191,7 @@ class SceneKeys : public testing::Test
   PlanningScene load(const std::string& yaml)
   {
     warnings_.clear();
-    static const auto robot = sliderRobotOnFloor("planar");
+    static const auto robot = sliderRobotOfMeshes("planar");
     return loadSceneText(yaml, "scene.yaml", folder_.path(""), robot, {}, &warnings_);
   }
 

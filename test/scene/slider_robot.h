@@ -20,6 +20,11 @@ std::shared_ptr<const RobotModel> sliderRobot();
 /// The same robot on a planar or floating virtual joint `floor` in the frame `hall`.
 std::shared_ptr<const RobotModel> sliderRobotOnFloor(const std::string& joint_type);
 
+/// The same robot with meshes in place of its boxes. The cart is a closed cube. The pole lacks the side at x > 0, which
+/// is more than a tenth of its area, so it is a surface unless a rule fills it.
+std::shared_ptr<const RobotModel> sliderRobotOfMeshes();
+std::shared_ptr<const RobotModel> sliderRobotOfMeshes(const std::string& joint_type);  ///< on the joint `floor`
+
 /// The robot and the object "wall" from x = 0.9 to 1.1 m, which the cart can hit.
 PlanningScene sliderAndWall(std::uint64_t revision = 0);
 }  // namespace gpu_planning_scene::core

@@ -503,6 +503,38 @@ TEST_F(CheckStates, BadInputEndsWithOne)
   expectError(check({"--random", "1", "--device", "no such renderer"}), 1, "no such renderer");
 }
 
+TEST_F(CheckStates, NamesTheMeshesThatAreOnlySurfacesAndTakesRulesForThem)
+{
+  // A ball of 0.1 m in a cube of 2 m that lacks a side.
+  const std::string mesh = folder.write("bin.obj",
+                                        "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\n"
+                                        "v 1 1 1\nv -1 1 1\nf 1 4 3 2\nf 5 6 7 8\nf 1 2 6 5\nf 4 8 7 3\n"
+                                        "f 1 5 8 4\n");
+  const std::string robot =
+      folder.write("ball.urdf", "<robot name='ball'><link name='bin'><collision><geometry><mesh filename='" + mesh +
+                                    "'/></geometry></collision></link><link name='ball'><collision><geometry>"
+                                    "<sphere radius='0.1'/></geometry></collision></link>" +
+                                    jointXml("slide", "prismatic", "bin", "ball", kLimits) + "</robot>");
+  const std::vector<std::string> arguments = {
+      "--urdf", robot, "--srdf", folder.write("b.srdf", "<robot name='ball'/>"), "--state", "slide=0", "--solid"};
+  const auto with_rule = [&](const std::string& rule)
+  {
+    std::vector<std::string> all = arguments;
+    all.push_back(rule);
+    return run(all);
+  };
+  const ProgramOutput open = with_rule("bin=auto");
+  EXPECT_EQ("1,,", rowsOf(open).at(0));
+  EXPECT_NE(std::string::npos, open.err.find("link 'bin', mesh '")) << open.err;
+  EXPECT_NE(std::string::npos, open.err.find("is only a surface: 1 hole of up to 2.8 m (20 % of the area")) << open.err;
+  const ProgramOutput filled = with_rule("bin=filled");
+  EXPECT_EQ("0,bin,ball", rowsOf(filled).at(0));
+  EXPECT_NE(std::string::npos, filled.err.find("1 hole of up to 2.8 m is filled (up to 20 % of")) << filled.err;
+  expectError(with_rule("bin"), 2, "--solid: 'bin' is not LINK=RULE");
+  expectError(with_rule("bin=full"), 2, "'full' is unknown; known are auto, surface and filled");
+  expectError(with_rule("bean=filled"), 1, "solid of link 'bean': the robot has no such link");
+}
+
 TEST_F(CheckStates, RandomStatesAreWithinTheLimitsOfThePlanningFile)
 {
   const std::string planning =

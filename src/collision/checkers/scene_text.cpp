@@ -50,6 +50,25 @@ bool isRigid(const PlanningScene& scene, const BodyPair& pair)
                      [](const ChainJoint& part) { return part.joint->type == JointType::Fixed; });
 }
 
+/// Metres from the origin of the planning frame within which answers are exact (docs/error_bounds.md).
+constexpr double kExactRange = 1000.0;
+
+/// The name of a body with its origin beyond this range, in the current state or in the default state; empty: none.
+std::string bodyOutOfRange(const PlanningScene& scene)
+{
+  const RobotModel& robot = *scene.robot;
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  const std::vector<double> state = scene.current_state.empty() ? robot.defaultState() : scene.current_state;
+  robot.linkPoses(state.data(), poses.data());
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (!robot.links()[i].shapes.empty() && poses[i].translation().norm() > kExactRange)
+      return robot.links()[i].name;
+  for (const WorldObject& object : scene.objects)
+    if (object.pose.translation().norm() > kExactRange)
+      return object.id;
+  return "";
+}
+
 /// Only a pair that collides in every state may be allowed without the risk that a collision is missed.
 std::string remedyOfRigid(const PlanningScene& scene, const std::vector<BodyPair>& pairs)
 {
@@ -175,6 +194,11 @@ std::vector<std::string> warningsOfScene(const PlanningScene& scene, const Scene
                                : std::string("; move these bodies apart")) +
                     remedyOfRigid(scene, other));
   }
+  if (const std::string body = bodyOutOfRange(scene); !body.empty())
+    lines.push_back("'" + body +
+                    "' is more than 1 km from the origin of the planning frame, where answers are not guaranteed to be "
+                    "exact, because doubles round poses more coarsely there; choose a planning frame near the robot's "
+                    "work");
   std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);
   return lines;
 }

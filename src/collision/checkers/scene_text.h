@@ -15,8 +15,8 @@ namespace gpu_planning_scene::core
 std::vector<std::string> describeScene(const PlanningScene& scene, const SceneReport& report,
                                        const std::string& device);
 
-/// One line for each reason why pairs collide in all samples, with the pairs and the remedy. Empty if no pair of the
-/// report collided in all samples.
+/// One line for each reason why pairs collide in all samples, with the pairs and the remedy, and one if a body is so
+/// far from the origin of the planning frame that answers are not guaranteed to be exact. Usually empty.
 std::vector<std::string> warningsOfScene(const PlanningScene& scene, const SceneReport& report);
 
 /// "1 link", "2 links".

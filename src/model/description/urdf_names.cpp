@@ -119,10 +119,27 @@ class UrdfNames
       if (contains(kPlaces, name))
         fail(child, "<" + name + "> does not belong" + in + ", and would not be read" +
                         (name == "pose" ? "; write <origin xyz=\"...\" rpy=\"...\"/>" : ""));
+      requireNothingLost(child, child);
     }
     check(child);
     if (std::strcmp(parent.Name(), "robot") == 0)
       owner_.clear();
+  }
+
+  /// Elements of other programs pass, such as <ros2_control> with its <joint>. Not so if they hold parts of a robot.
+  void requireNothingLost(const XMLElement& unknown, const XMLElement& inside) const
+  {
+    if (hasPrefix(inside.Name()))
+      return;
+    for (const auto* child = inside.FirstChildElement(); child != nullptr; child = child->NextSiblingElement())
+    {
+      const std::string name = child->Name();
+      if ((name == "collision" && child->FirstChildElement("geometry") != nullptr) ||
+          (name == "joint" && child->FirstChildElement("parent") != nullptr))
+        fail(*child, "<" + name + "> in the unknown element <" + unknown.Name() + "> would not be read; remove <" +
+                         unknown.Name() + ">, or move its content out of it");
+      requireNothingLost(unknown, *child);
+    }
   }
 
   /// <geometry> has one shape. urdfdom refuses an unknown first one itself.

@@ -93,6 +93,8 @@ Eigen::Affine3d colladaTransform(const XMLElement& element)
     return Eigen::Affine3d(Eigen::Scaling(Values(element, 3).vector(0)));
   if (name == "lookat")
     return lookAt(element);
-  failAt(element, "programs do not agree on what it means; export the model with <matrix>");
+  if (Values(element, 7).number(0) != 0.0)
+    failAt(element, "programs do not agree on what it means; export the model with <matrix>");
+  return Eigen::Affine3d::Identity();  // some programs write a <skew> of 0 degrees in each node
 }
 }  // namespace gpu_planning_scene::core

@@ -1,6 +1,7 @@
 #include "model/text/utf8.h"
 
 #include <cstddef>
+#include <utility>
 
 namespace gpu_planning_scene::core
 {
@@ -51,7 +52,7 @@ void declareUtf8(std::string& text)
 }
 }  // namespace
 
-std::string xmlInUtf8(std::string text)
+std::string inUtf8(std::string text)
 {
   if (isUtf8(text))
     return text;
@@ -68,6 +69,14 @@ std::string xmlInUtf8(std::string text)
       result += static_cast<char>(0x80 | (code & 0x3F));
     }
   }
+  return result;
+}
+
+std::string xmlInUtf8(std::string text)
+{
+  if (isUtf8(text))
+    return text;
+  std::string result = inUtf8(std::move(text));
   declareUtf8(result);
   return result;
 }

@@ -51,13 +51,15 @@ class MarkerMaker
     for (std::size_t body = 0; body < poses_.size(); ++body)
     {
       BodyColor color = bodyColor(scene_, body);
+      BodyColor open = openColor(color);
       if (colliding.count(body) != 0)
       {
         color = collidingColor(scene_, body);
         if (namespaceOf(body) == "objects")
           color[3] = kCollidingObjectOpacity;
+        open = color;
       }
-      markers_.begin(namespaceOf(body), color);
+      markers_.begin(namespaceOf(body), color, open);
       for (const PlacedShape& shape : bodyShapes(scene_, body))
         markers_.addShape(shape.shape, poses_[body] * shape.pose);
     }

@@ -51,11 +51,12 @@ void ShapeMarkers::limitTriangles(std::size_t max_triangles, std::vector<std::si
   }
 }
 
-void ShapeMarkers::begin(const std::string& name, const BodyColor& color)
+void ShapeMarkers::begin(const std::string& name, const BodyColor& color, const BodyColor& open)
 {
   lists_.clear();
   name_ = name;
   color_ = color;
+  open_color_ = open;
 }
 
 Marker& ShapeMarkers::add(int type, const Eigen::Isometry3d& pose)
@@ -134,12 +135,9 @@ void ShapeMarkers::addTriangles(const Mesh& mesh, const Eigen::Isometry3d& pose)
 void ShapeMarkers::colorOpenTriangles(const SolidMesh& solid)
 {
   Marker& marker = array_.markers.back();
-  if (marker.type != Marker::TRIANGLE_LIST || solid.parts.count(PartKind::Surface) == 0)
+  if (marker.type != Marker::TRIANGLE_LIST || solid.parts.count(PartKind::Surface) == 0 || open_color_ == color_)
     return;
-  std_msgs::ColorRGBA open = marker.color;
-  open.r = 0.6F;
-  open.g = 0.35F;
-  open.b = 0.7F;
+  const std_msgs::ColorRGBA open = toMessage(open_color_);
   for (std::size_t i = 0; i < solid.mesh->triangles.size(); ++i)
     marker.colors.insert(marker.colors.end(), 3, solid.isOpen(i) ? open : marker.color);
 }

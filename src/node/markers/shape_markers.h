@@ -38,7 +38,10 @@ class ShapeMarkers
   void limitTriangles(std::size_t max_triangles, std::vector<std::size_t> shapes);
 
   /// The next markers belong to another body. `name`: their namespace.
-  void begin(const std::string& name, const BodyColor& color);
+  void begin(const std::string& name, const BodyColor& color) { begin(name, color, color); }
+
+  /// `open`: the colour of triangles that bound no solid.
+  void begin(const std::string& name, const BodyColor& color, const BodyColor& open);
 
   /// Adds a shape of the body. `pose`: in the planning frame.
   void addShape(const Shape& shape, const Eigen::Isometry3d& pose);
@@ -67,5 +70,6 @@ class ShapeMarkers
   std::map<std::array<double, 13>, std::size_t> lists_;  // list markers of the body, by type, size and rotation
   std::string name_;
   BodyColor color_{};
+  BodyColor open_color_{};
 };
 }  // namespace gpu_planning_scene::core

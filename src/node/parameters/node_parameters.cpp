@@ -121,7 +121,14 @@ std::map<std::string, SolidRule> solidsFromParameters(const ros::NodeHandle& own
   {
     if (rule.getType() != XmlRpcValue::TypeString)
       throw Error(where + "the rule of link '" + link + "' must be auto, surface or filled");
-    solids[link] = solidRuleFrom(static_cast<std::string&>(rule));
+    try
+    {
+      solids[link] = solidRuleFrom(static_cast<std::string&>(rule));
+    }
+    catch (const Error& error)
+    {
+      throw Error(where + "link '" + link + "': " + error.what());
+    }
   }
   return solids;
 }

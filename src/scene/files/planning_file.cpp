@@ -23,6 +23,8 @@ class PositionLimitsReader
     {
       if (const std::string meant = misspeltJointLimits(key); !meant.empty())
         value.fail("unknown key '" + key + "'" + meant);
+      if (key != "joint_limits")
+        requireNoLimits(key, value);
       if (key.compare(0, 8, "default_") == 0 && key.find("scaling_factor") == std::string::npos)
         warn(value.where() + ": '" + key + "' is not used here; only the node uses it");
     }
@@ -39,6 +41,19 @@ class PositionLimitsReader
   {
     if (warnings_ != nullptr)
       warnings_->push_back(line);
+  }
+
+  /// Limits in another place would be lost.
+  static void requireNoLimits(const std::string& key, const YamlValue& value)
+  {
+    if (value.kind() != YamlValue::Kind::Map)
+      return;
+    for (const auto& [inner, member] : value.members())
+      if (inner == "joint_limits")
+        member.fail("'joint_limits' is in '" + key + "'; it must be at the top of the file");
+      else if (inner == "min_position" || inner == "max_position")
+        member.fail("'" + key + "' has a position limit and is not in joint_limits; write joint_limits: {" + key +
+                    ": {" + inner + ": ...}}");
   }
 
   /// The members are limits of the variable, or entries of the variables of a joint that has several.

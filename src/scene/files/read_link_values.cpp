@@ -4,6 +4,7 @@
 #include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 #include "scene/missing_link.h"
+#include "scene/solid_rules.h"
 
 // Padding, scale and solids of links, and colours of bodies.
 namespace gpu_planning_scene::core
@@ -80,8 +81,11 @@ std::map<std::string, SolidRule> readLinkSolids(const YamlValue& scene, const Sc
   {
     checkKeys(item, SceneMap::LinkSolid, reader.warnings);
     const YamlValue& name = item.at("link_name");
-    if (reader.robot.linkIndex(name.text()) < 0)
+    const int link = reader.robot.linkIndex(name.text());
+    if (link < 0)
       name.fail("the robot " + noLinkText(reader.robot, name.text()));
+    if (!solidRuleOf(reader.robot.links()[static_cast<std::size_t>(link)].shapes))
+      name.fail("link '" + name.text() + "' has no mesh; only meshes have a rule for their solid");
     if (!rules.emplace(name.text(), readSolidRule(item.at("solid"))).second)
       name.fail("the solid of link '" + name.text() + "' is given twice");
   }

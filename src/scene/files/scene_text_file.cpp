@@ -9,6 +9,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "model/files/open_file.h"
+#include "model/text/utf8.h"
 #include "scene/files/text_tokens.h"
 #include "scene/message_values.h"
 #include "scene/shape_order.h"
@@ -182,7 +183,8 @@ PlanningScene readSceneText(const std::string& text, const std::string& file, st
   if (text.find_first_not_of(" \t\r\n\v\f") == std::string::npos)
     throw Error(file + ": the file is empty; the shortest scene is a line with a name and a line with '.'");
   PlanningScene scene(std::move(robot), defaults);
-  SceneTextReader(text, file, scene, defaults.object_padding).read();
+  const std::string in_utf8 = inUtf8(text);
+  SceneTextReader(in_utf8, file, scene, defaults.object_padding).read();
   return scene;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -13,6 +15,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/files/open_file.h"
 #include "model/text/parse_number.h"
+#include "model/text/utf8.h"
 
 namespace gpu_planning_scene::core
 {
@@ -148,12 +151,13 @@ class YamlTreeBuilder : public YAML::EventHandler
 YamlValue YamlValue::loadFile(const std::string& path)
 {
   std::ifstream file = openFile(path);
-  return read(file, path);
+  return fromText(std::string(std::istreambuf_iterator<char>(file), {}), path);
 }
 
 YamlValue YamlValue::fromText(const std::string& text, const std::string& name)
 {
-  std::istringstream stream(text);
+  const bool is_utf_16 = text.find('\0') != std::string::npos;  // or UTF-32; yaml-cpp reads both
+  std::istringstream stream(is_utf_16 ? text : inUtf8(text));
   return read(stream, name);
 }
 
@@ -177,7 +181,9 @@ YamlValue YamlValue::read(std::istream& stream, const std::string& name)
   }
   catch (const YAML::Exception& error)
   {
-    throw Error(name + ":" + std::to_string(error.mark.line + 1) + ": not YAML: " + error.msg);
+    const bool is_star = error.msg == YAML::ErrorMsg::ALIAS_NOT_FOUND;
+    throw Error(name + ":" + std::to_string(error.mark.line + 1) + ": not YAML: " + error.msg +
+                (is_star ? "; \"*\" needs quotation marks" : ""));
   }
   if (document.kind_ == Kind::Null)
     throw Error(name + ": the file holds no YAML value");

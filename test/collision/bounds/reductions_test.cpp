@@ -362,6 +362,34 @@ TEST(ReportOfSamples, SaysNothingOfPairsBetweenWhichAPassiveJointLies)
   EXPECT_EQ(std::vector<std::string>{"tray - arm"}, sampledPairs(passive)) << "both links are above the caster";
 }
 
+TEST(WarningsOfAScene, NameABodyBeyondTheRangeInWhichAnswersAreExact)
+{
+  const auto robot_at = [](const std::string& metres)
+  {
+    return robotOf("<link name='map'/>" + boxLink("base") + boxLink("arm") +
+                   jointXml("mount", "fixed", "map", "base", "<origin xyz='0 " + metres + " 0'/>") +
+                   jointXml("joint", "continuous", "base", "arm", "<origin xyz='3 0 0'/><axis xyz='0 0 1'/>"));
+  };
+  const auto warnings = [](const PlanningScene& scene) { return warningsOfScene(scene, SceneReport()); };
+  PlanningScene near(robot_at("990"));
+  EXPECT_TRUE(warnings(near).empty());
+  for (const PlanningScene& far : {PlanningScene(robot_at("1001")), PlanningScene(robot_at("-9e5"))})
+  {
+    ASSERT_EQ(1U, warnings(far).size());
+    EXPECT_EQ(0U, warnings(far)[0].find("'base' is more than 1 km from the origin of the planning frame"));
+  }
+  near.objects.push_back({"crate", Eigen::Isometry3d(Eigen::Translation3d(0, 0, 2000)), {{Box{{1.0, 1.0, 1.0}}}}});
+  ASSERT_EQ(1U, warnings(near).size());
+  EXPECT_EQ(0U, warnings(near)[0].find("'crate' is more than 1 km"));
+
+  // The base that drives there is near in the default state.
+  PlanningScene driven(sliderRobotOnFloor("planar"));
+  EXPECT_TRUE(warnings(driven).empty());
+  driven.current_state = driven.robot->defaultState();
+  driven.current_state.at(static_cast<std::size_t>(driven.robot->variableIndex("floor/x"))) = 5000.0;
+  EXPECT_EQ(1U, warnings(driven).size());
+}
+
 TEST_F(SmallScene, ReportsThePairsThatCollideInEverySample)
 {
   const auto pairs_of = [this](StateChecker& checker)

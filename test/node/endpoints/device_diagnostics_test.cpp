@@ -11,6 +11,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/model_testing.h"
 #include "node/endpoints/diagnostics.h"
+#include "scene/change_testing.h"
 #include "scene/slider_robot.h"
 #include "service/checker_maker.h"
 
@@ -154,6 +155,24 @@ TEST_F(DeviceDiagnostics, DiagnosticsReportCpuFallbackAndMissingDevice)
   retry();
   ask(1);
   EXPECT_EQ(level(), DiagnosticStatus::OK);
+}
+
+TEST_F(DeviceDiagnostics, DiagnosticsCountThePartsThatAreOnlySurfaces)
+{
+  const auto surface_parts = [this]
+  {
+    for (const auto& item : diagnostics_.status(store_, server()).values)
+      if (item.key == "surface_parts")
+        return item.value;
+    return std::string();
+  };
+  ask(1);
+  EXPECT_EQ("0", surface_parts());
+  SceneChange open;
+  open.is_diff = true;
+  open.objects = {objectChange(Operation::Add, "sheet", {triangleAt()})};
+  store_.apply(open, {});
+  EXPECT_EQ("1", surface_parts());
 }
 
 TEST_F(DeviceDiagnostics, DiagnosticsAreShortWhateverIsInThem)

@@ -72,6 +72,8 @@ TEST_F(ExactScenes, AFollowerHasEachSceneToTheLastBit)
   const unsigned value = std::random_device()();
   seed(value);
   SCOPED_TRACE("seed " + std::to_string(value));
+  has_solids_ = true;
+  scene_ = PlanningScene(sliderRobotOfMeshes());
   PlanningScene follower(scene_.robot);
   follower = sent(follower, whole());
   for (int i = 0; i < 300 && !HasFailure(); ++i)

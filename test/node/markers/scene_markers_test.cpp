@@ -135,6 +135,30 @@ TEST(Markers, CollidingBodiesAreRedAndContactsShown)
   EXPECT_GT(red_of("robot"), red_of("objects") + 0.2F) << "the robot stands out";
 }
 
+TEST(Markers, TrianglesThatBoundNoSolidHaveAnotherColourUnlessTheirBodyCollides)
+{
+  PlanningScene scene(sliderRobotOfMeshes());
+  const auto colors_of = [&](const std::vector<BodyPair>& colliding)
+  {
+    std::vector<std::vector<std_msgs::ColorRGBA>> colors;
+    for (const Marker& marker : markers(scene, colliding).markers)
+      if (marker.type == Marker::TRIANGLE_LIST)
+        colors.push_back(marker.colors);
+    return colors;
+  };
+  const int cart = scene.robot->linkIndex("cart");
+  const int pole = scene.robot->linkIndex("pole");
+  const auto free = colors_of({});
+  ASSERT_EQ(2u, free.size());
+  EXPECT_TRUE(free[0].empty()) << "the cart is closed";
+  ASSERT_EQ(30u, free[1].size()) << "corners of the pole, which lacks a side";
+  for (const std_msgs::ColorRGBA& color : free[1])
+    EXPECT_TRUE(color.b > color.r && color.r > color.g + 0.05F) << "violet";
+  EXPECT_TRUE(colors_of({{cart, pole}})[1].empty()) << "all of it is red";
+  scene.robot = scene.robot->withSolids({{"pole", SolidRule::Filled}});
+  EXPECT_TRUE(colors_of({})[1].empty());
+}
+
 TEST(Markers, ContactsAreSmallBesideASmallBody)
 {
   PlanningScene scene = fullScene();

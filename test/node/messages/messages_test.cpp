@@ -9,6 +9,7 @@
 #include "node/messages/from_messages.h"
 #include "node/messages/to_messages.h"
 #include "scene/change_testing.h"
+#include "scene/solid_rules.h"
 
 namespace gpu_planning_scene::core
 {
@@ -527,6 +528,9 @@ PlanningSceneMessage everything()
   table.subframe_names = {"corner"};
   table.subframe_poses = {poseMessage(1, 1, 0)};
   message.world.collision_objects = {table};
+  message.solids.resize(1);
+  message.solids[0].id = "table";
+  message.solids[0].solid = BodySolid::FILLED;
   return message;
 }
 
@@ -565,6 +569,7 @@ TEST_F(Messages, OnlyTheRequestedComponentsAreThere)
   message = get(Components::WORLD_OBJECT_GEOMETRY);
   EXPECT_EQ(1u, message.world.collision_objects.at(0).primitives.size());
   EXPECT_EQ(1u, message.world.collision_objects.at(0).subframe_names.size());
+  EXPECT_EQ(BodySolid::FILLED, message.solids.at(0).solid);
   message = get(Components::TRANSFORMS);
   EXPECT_EQ("camera", message.fixed_frame_transforms.at(0).header.frame_id);
   EXPECT_EQ("rail", message.fixed_frame_transforms.at(0).child_frame_id);
@@ -577,6 +582,40 @@ TEST_F(Messages, OnlyTheRequestedComponentsAreThere)
   EXPECT_EQ(0.5F, message.object_colors.at(0).color.r);
   message = get(Components::OCTOMAP);
   EXPECT_TRUE(message.name.empty() && message.world.collision_objects.empty() && message.object_colors.empty());
+}
+
+TEST_F(Messages, RulesForSolidsGoThroughTheirMessages)
+{
+  scene_ = PlanningScene(sliderRobotOfMeshes());
+  applyMessage(everything());
+  const PlanningScene first = scene_;
+  PlanningSceneMessage rules = diff();
+  rules.solids.resize(2);
+  rules.solids[0].id = "cart";
+  rules.solids[0].solid = BodySolid::SURFACE;
+  rules.solids[1].id = "table";
+  rules.solids[1].solid = BodySolid::AUTO;
+  applyMessage(rules);
+  const PlanningScene second = scene_;
+  EXPECT_EQ((std::map<std::string, SolidRule>{{"cart", SolidRule::Surface}, {"pole", SolidRule::Auto}}),
+            solidRulesOf(second));
+  const PlanningSceneMessage whole = get();
+  for (const auto& [from, to] : {std::pair(first, second), {second, first}})
+  {
+    scene_ = from;
+    const PlanningSceneMessage way = messageOf(diffOf(from, to), *from.robot);
+    EXPECT_TRUE(way.is_diff);
+    applyMessage(way);
+    expectSameScene(to, scene_, 1e-14);
+  }
+  applyMessage(whole);
+  expectSameScene(second, scene_, 1e-14);
+
+  rules.solids[1].id = "cart";
+  refusedMessage("the solid of 'cart' is given twice", rules);
+  rules.solids.resize(1);
+  rules.solids[0].solid = 3;
+  refusedMessage("solids: the rule of 'cart' is 3", rules);
 }
 
 TEST_F(Messages, JointsThatAreNotKnownAreLeftOut)

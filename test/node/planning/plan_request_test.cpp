@@ -1,0 +1,59 @@
+// Requests of ~plan become queries of a planner. No ROS master is needed.
+
+#include <gtest/gtest.h>
+
+#include "model/model_testing.h"
+#include "node/planning/plan_request.h"
+#include "scene/slider_robot.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// A base that drives on a floor without limits. Translations are planned for within 1 m, unless a request has a
+/// workspace.
+class BaseRequest : public testing::Test
+{
+ protected:
+  BaseRequest()
+  {
+    request_.group = "base";
+    request_.start_names = request_.goal_names = {"floor/x", "floor/y", "floor/theta"};
+    request_.start = {0.0, 0.0, 0.0};
+    request_.goals = {5.0, -3.0, 0.5};
+    store_.updateState({{"slide", 0.0}, {"turn", 0.0}});
+  }
+
+  PlanningQuery query() const { return queryFrom(request_, store_.snapshot(), {}, {}, {}); }
+
+  static std::shared_ptr<const RobotModel> robot()
+  {
+    std::string srdf = sliderSrdf();
+    srdf.insert(srdf.find("</robot>"),
+                "<virtual_joint name='floor' type='planar' parent_frame='hall' child_link='rail'/>"
+                "<group name='base'><joint name='floor'/></group>");
+    return RobotModel::fromXml(sliderUrdf(), srdf, {});
+  }
+
+  SceneStore store_{PlanningScene(robot()), {}, {}};
+  PlanMotion::Request request_;
+};
+
+TEST_F(BaseRequest, HasTheWorkspaceOfItsMessage)
+{
+  EXPECT_FALSE(query().workspace);
+  request_.workspace_parameters.min_corner.x = request_.workspace_parameters.min_corner.y = -6.0;
+  request_.workspace_parameters.max_corner.x = request_.workspace_parameters.max_corner.y = 7.0;
+  for (const char* frame : {"", "hall", "/hall"})
+  {
+    request_.workspace_parameters.header.frame_id = frame;
+    const PlanningQuery found = query();
+    ASSERT_TRUE(found.workspace);
+    EXPECT_EQ(Eigen::Vector3d(-6.0, -6.0, 0.0), found.workspace->min());
+    EXPECT_EQ(Eigen::Vector3d(7.0, 7.0, 0.0), found.workspace->max());
+  }
+  request_.workspace_parameters.header.frame_id = "rail";
+  EXPECT_NE(std::string::npos, errorOf([this] { query(); }).find("give them in the planning frame 'hall'"));
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core
