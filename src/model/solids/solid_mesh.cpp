@@ -9,6 +9,7 @@
 #include "gpu_planning_scene/solids.h"
 #include "model/solids/disjoint_sets.h"
 #include "model/solids/mesh_edges.h"
+#include "model/solids/shells.h"
 #include "model/solids/surface_closer.h"
 #include "model/solids/welding.h"
 
@@ -63,13 +64,14 @@ class TriangleComponents
 };
 
 /// For each component: whether each of its edges belongs to two triangles of opposite direction.
-std::vector<bool> closedComponents(const std::vector<Corners>& triangles, const TriangleComponents& components)
+std::vector<bool> closedComponents(const std::vector<Corners>& triangles, const std::vector<EdgeUse>& uses,
+                                   const TriangleComponents& components)
 {
   std::vector<bool> closed(components.count(), false);
   for (std::size_t t = 0; t < triangles.size(); ++t)
     if (hasDistinctCorners(triangles[t]))
       closed[components.of(t)] = true;
-  visitEdges(edgeUses(triangles),
+  visitEdges(uses,
              [&](auto first, auto last)
              {
                if (last - first != 2 || first[0].upwards == first[1].upwards)
@@ -94,8 +96,10 @@ class ChangedMesh
   {
     const auto& vertices = mesh_->triangles[triangle];
     if (places_.of_vertex[vertices[1]] != corners[1])
-      std::swap(copy().triangles[triangle][1], copy().triangles[triangle][2]);
+      turn(triangle);
   }
+
+  void turn(std::size_t triangle) { std::swap(copy().triangles[triangle][1], copy().triangles[triangle][2]); }
 
   void add(const Corners& corners)
   {
@@ -202,6 +206,52 @@ void addComponents(SolidMesh& solid, const std::vector<Corners>& triangles, std:
   }
 }
 
+/// Turns the shells that would cancel others. `uses` are those of all triangles, of which `closed` tells whether their
+/// component is closed as it is in the file.
+void turnShells(const Places& places, const std::vector<Corners>& original, const TriangleComponents& components,
+                const std::vector<bool>& closed, const std::vector<EdgeUse>& uses, SolidMesh& solid)
+{
+  const bool is_changed = solid.parts.closed < closed.size();
+  std::vector<std::uint32_t> numbers;
+  std::vector<std::uint32_t> turned;
+  if (is_changed)
+  {
+    const std::vector<Corners> all = cornersOf(*solid.mesh, places);
+    std::vector<Corners> counted;
+    for (std::uint32_t t = 0; t < all.size(); ++t)
+      if (solid.roles[t] == TriangleRole::Winding)
+      {
+        counted.push_back(all[t]);
+        numbers.push_back(t);
+      }
+    turned = trianglesToTurn(places.points, counted, edgeUses(counted));
+  }
+  else
+    turned = trianglesToTurn(places.points, original, uses);
+  if (turned.empty())
+    return;
+  ChangedMesh mesh(solid.mesh, places);
+  std::map<std::uint32_t, MeshPart> mended;
+  for (const std::uint32_t i : turned)
+  {
+    const std::uint32_t t = is_changed ? numbers[i] : i;
+    mesh.turn(t);
+    if (t < original.size() && closed[components.of(t)])
+      mended.try_emplace(components.of(t), MeshPart{PartKind::Mended, 0, {}});
+  }
+  for (std::size_t t = 0; t < original.size(); ++t)
+    if (const auto part = mended.find(components.of(t)); part != mended.end())
+    {
+      ++part->second.triangles;
+      for (const std::uint32_t place : original[t])
+        part->second.bounds.extend(places.points[place]);
+    }
+  for (const auto& [component, part] : mended)
+    solid.parts.other.push_back(part);
+  solid.parts.closed -= mended.size();
+  solid.mesh = mesh.get();
+}
+
 SolidMesh makeSolidMesh(const std::shared_ptr<const Mesh>& mesh)
 {
   const Places places = placesOf(mesh->vertices);
@@ -210,7 +260,8 @@ SolidMesh makeSolidMesh(const std::shared_ptr<const Mesh>& mesh)
   SolidMesh solid{mesh, std::vector<TriangleRole>(triangles.size(), TriangleRole::Surface), {}, {}};
   if (mesh->solid != SolidRule::Surface)
   {
-    const std::vector<bool> closed = closedComponents(triangles, components);
+    const std::vector<EdgeUse> uses = edgeUses(triangles);
+    const std::vector<bool> closed = closedComponents(triangles, uses, components);
     solid.parts.closed = static_cast<std::size_t>(std::count(closed.begin(), closed.end(), true));
     std::vector<std::uint32_t> open;
     Eigen::AlignedBox3d bounds;
@@ -225,6 +276,7 @@ SolidMesh makeSolidMesh(const std::shared_ptr<const Mesh>& mesh)
     }
     if (!open.empty())
       closeOpenParts(triangles, places, bounds.diagonal().norm(), std::move(open), solid);
+    turnShells(places, triangles, components, closed, uses, solid);
   }
   else
   {

@@ -1,15 +1,15 @@
 #include "model/solids/surface_closer.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <iterator>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <utility>
 
+#include "model/solids/closed_core.h"
 #include "model/solids/disjoint_sets.h"
+#include "model/solids/free_rims.h"
 #include "model/solids/hole_filling.h"
 #include "model/solids/orientation.h"
 #include "model/solids/seams.h"
@@ -109,13 +109,18 @@ class SurfaceCloser
     for (const std::uint32_t t : unique_)
       triangles.push_back(welded_[t]);
     for (const Corners& seam : seamTriangles(points_, triangles, tolerance))
-    {
-      unique_.push_back(static_cast<std::uint32_t>(welded_.size()));
-      welded_.push_back(seam);
-      copies_.push_back({unique_.back()});
-      result_.triangles.push_back(seam);
-      result_.roles.push_back(TriangleRole::Surface);
-    }
+      unique_.push_back(addTriangle(seam, TriangleRole::Surface));
+  }
+
+  /// Returns the triangle's number.
+  std::uint32_t addTriangle(const Corners& triangle, TriangleRole role)
+  {
+    const auto number = static_cast<std::uint32_t>(result_.triangles.size());
+    result_.triangles.push_back(triangle);
+    result_.roles.push_back(role);
+    welded_.push_back(triangle);
+    copies_.push_back({number});
+    return number;
   }
 
   /// The sets of triangles that are connected by edges.
@@ -152,7 +157,8 @@ class SurfaceCloser
     return corners;
   }
 
-  void closePart(const Numbers& part)
+  /// `filled`: holes whose triangles are already in the part.
+  void closePart(const Numbers& part, const std::vector<FilledHole>& filled = {})
   {
     const OrientedSurface once = orient(points_, cornersOf(part));
     // Two volumes with a common wall have it twice. Without the wall they are one volume.
@@ -163,12 +169,12 @@ class SurfaceCloser
     const OrientedSurface outer = has_walls ? orient(points_, cornersOf(without_walls)) : OrientedSurface();
     const bool is_closed = once.boundary.empty() || once.even;
     const bool is_outer_closed = has_walls && (outer.boundary.empty() || outer.even);
-    if (!is_closed && !is_outer_closed && closeCore(part))
+    if (!is_closed && !is_outer_closed && closeCore(part, once, filled))
       return;
     if (once.boundary.empty() || (is_closed && !(is_outer_closed && outer.boundary.empty())))
-      return accept(completed(part, once), part);
+      return accept(completed(part, once), part, filled);
     if (is_outer_closed)
-      return accept(completed(without_walls, outer), part);
+      return accept(completed(without_walls, outer), part, filled);
     Cycle cycle = completed(part, once);
     if (has_walls)
     {
@@ -176,64 +182,62 @@ class SurfaceCloser
       if (outer_cycle.share < cycle.share)
         cycle = std::move(outer_cycle);
     }
-    accept(cycle, part);
+    accept(cycle, part, filled);
   }
 
-  /// Takes away the triangles at free edges until none is left, for example a fin on a closed surface. If the rest is
-  /// closed, closes it and the parts of what was taken away, and returns true.
-  bool closeCore(const Numbers& part)
+  /// Closes the part's largest closed surface, and separately what has free edges beside it, for example a fin. If the
+  /// free edges are the rims of small holes, these are filled first. False if the part has no closed surface, or may
+  /// have a larger one in an attempt that fills holes.
+  bool closeCore(const Numbers& part, const OrientedSurface& once, const std::vector<FilledHole>& filled)
   {
     const std::vector<Corners> corners = cornersOf(part);
-    const std::vector<EdgeUse> uses = edgeUses(corners);
-    struct Edge
+    const std::vector<CorePlace> places = closedCore(points_, corners);
+    Numbers core;
+    Numbers core_and_walls;
+    Numbers rest;
+    double area = 0.0;
+    double rest_area = 0.0;
+    for (std::size_t i = 0; i < part.size(); ++i)
     {
-      std::size_t first, last;
-      std::size_t left;
-    };
-    std::vector<Edge> edges;
-    std::vector<std::array<std::size_t, 3>> edges_of(part.size());
-    std::vector<int> known(part.size(), 0);
-    for (std::size_t first = 0; first < uses.size();)
-    {
-      std::size_t last = first;
-      while (last < uses.size() && uses[last].sameEdge(uses[first]))
-        edges_of[uses[last].triangle][known[uses[last].triangle]++] = edges.size(), ++last;
-      edges.push_back({first, last, last - first});
-      first = last;
+      if (places[i] == CorePlace::Core)
+        core.push_back(part[i]);
+      (places[i] == CorePlace::Beside ? rest : core_and_walls).push_back(part[i]);
+      area += areaOf(points_, corners[i]);
+      rest_area += places[i] == CorePlace::Beside ? areaOf(points_, corners[i]) : 0.0;
     }
-    std::vector<bool> taken(part.size(), false);
-    std::vector<std::size_t> open(edges.size());
-    std::iota(open.begin(), open.end(), std::size_t{0});
-    while (!open.empty())
+    if (filled.empty() && !rest.empty() && (!core.empty() || closing_.fills_holes))
     {
-      const Edge edge = edges[open.back()];
-      open.pop_back();
-      if (edge.left != 1)
-        continue;
-      std::size_t use = edge.first;
-      while (taken[uses[use].triangle])
-        ++use;
-      const std::uint32_t t = uses[use].triangle;
-      taken[t] = true;
-      for (const std::size_t e : edges_of[t])
+      const std::vector<BoundaryEdge> rims = freeRims(points_, once.triangles);
+      // A surface without other boundary is filled as a whole.
+      const std::vector<FilledHole> holes =
+          rims.size() == once.boundary.size() ? std::vector<FilledHole>() : fillHoles(points_, rims);
+      double holes_area = 0.0;
+      for (const FilledHole& hole : holes)
+        holes_area += hole.area;
+      // A fin, which is not worth to be filled, has a filling of about its own area.
+      if (!holes.empty() && holes_area <= closing_.most_share * area && holes_area < 0.5 * rest_area)
       {
-        --edges[e].left;
-        open.push_back(e);
+        if (!closing_.fills_holes)
+          return false;
+        closePart(withHoles(part, holes), holes);
+        return true;
       }
     }
-    Numbers core;
-    Numbers rest;
-    for (std::size_t i = 0; i < part.size(); ++i)
-      (taken[i] ? rest : core).push_back(part[i]);
-    if (core.empty() || rest.empty())
+    if (core.empty())
       return false;
-    const OrientedSurface closed = orient(points_, cornersOf(core));
-    if (!closed.boundary.empty() && !closed.even)
-      return false;
-    accept(completed(core, closed), core);
+    accept(completed(core, orient(points_, cornersOf(core))), core_and_walls, filled);
     for (const Numbers& other : partsOf(rest))
       closePart(other);
     return true;
+  }
+
+  /// Fillings become triangles like those of the input, at the end of the list.
+  Numbers withHoles(Numbers part, const std::vector<FilledHole>& holes)
+  {
+    for (const FilledHole& hole : holes)
+      for (const Corners& triangle : hole.triangles)
+        part.push_back(addTriangle(triangle, TriangleRole::Surface));
+    return part;
   }
 
   /// The cycle of an oriented surface: with its holes filled, unless it is closed or parity decides.
@@ -293,9 +297,11 @@ class SurfaceCloser
     return added;
   }
 
-  /// Adds a cycle to the solid, unless too much of it would have to be added.
-  void accept(const Cycle& cycle, const Numbers& part)
+  /// Adds a cycle to the solid, unless too much of it would have to be added. `filled`: holes whose triangles are
+  /// members.
+  void accept(Cycle cycle, const Numbers& part, const std::vector<FilledHole>& filled)
   {
+    cycle.holes.insert(cycle.holes.end(), filled.begin(), filled.end());
     if (cycle.chain.empty() || !(cycle.share <= closing_.most_share))
     {
       for (const std::uint32_t t : part)
@@ -311,10 +317,7 @@ class SurfaceCloser
         result_.roles[cycle.members[i]] = cycle.role;
       }
       else
-      {
-        result_.triangles.push_back(cycle.chain[i]);
-        result_.roles.push_back(cycle.role);
-      }
+        addTriangle(cycle.chain[i], cycle.role);
     report(part, cycle.holes.empty() ? PartKind::Mended : PartKind::Filled, cycle);
   }
 
