@@ -20,8 +20,8 @@ namespace
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kMostSteps = 300'000'000;  // comparisons of boxes: about a second
-constexpr double kRounding = 1e-12;              // of gaps and areas, as a share of the lengths in them
+constexpr std::size_t kMostComparisons = 300'000'000;  // comparisons of boxes: about a second
+constexpr double kShareOfRounding = 1e-12;             // of gaps and areas, as a share of the lengths in them
 
 struct Shell
 {
@@ -33,11 +33,6 @@ struct Shell
 
   double diagonal() const { return box.diagonal().squaredNorm(); }
 };
-
-bool overlap(const AlignedBox3d& a, const AlignedBox3d& b)
-{
-  return (a.min().array() <= b.max().array()).all() && (b.min().array() <= a.max().array()).all();
-}
 
 bool liesStrictlyIn(const AlignedBox3d& inner, const AlignedBox3d& outer)
 {
@@ -63,7 +58,7 @@ bool areApart(const std::array<Vector3d, 3>& a, const std::array<Vector3d, 3>& b
       size = std::max({size, std::abs(at_a), std::abs(at_b)});
     }
     const double reach = axis.norm() * ((b[0] - a[0]).norm() + edges_a[0].norm() + edges_b[0].norm());
-    return std::max(low_b - high_a, low_a - high_b) > kRounding * std::max(size, reach);
+    return std::max(low_b - high_a, low_a - high_b) > kShareOfRounding * std::max(size, reach);
   };
   const Vector3d normal_a = edges_a[0].cross(edges_a[1]);
   const Vector3d normal_b = edges_b[0].cross(edges_b[1]);
@@ -99,7 +94,7 @@ class Nesting
   }
 
   /// Counts steps. False if there are too many: then nothing is proven any more.
-  bool spend(std::size_t steps) { return (steps_ += steps) <= kMostSteps; }
+  bool spend(std::size_t steps) { return (steps_ += steps) <= kMostComparisons; }
 
  private:
   std::array<Vector3d, 3> cornersOf(std::uint32_t t) const
@@ -124,7 +119,7 @@ class Nesting
   {
     std::vector<Boxed> found;
     for (const std::uint32_t t : shell.triangles)
-      if (const AlignedBox3d own = boxOf(t); overlap(own, box))
+      if (const AlignedBox3d own = boxOf(t); own.intersects(box))
         found.push_back({own, t});
     std::sort(found.begin(), found.end(),
               [](const Boxed& a, const Boxed& b) { return a.box.min().x() < b.box.min().x(); });
@@ -147,7 +142,7 @@ class Nesting
           continue;
         if (!spend(1))
           return true;
-        if (overlap(first.box, other->box) && !areApart(cornersOf(first.triangle), cornersOf(other->triangle)))
+        if (first.box.intersects(other->box) && !areApart(cornersOf(first.triangle), cornersOf(other->triangle)))
           return true;
       }
       return false;
@@ -201,17 +196,17 @@ class Nesting
       {
         const Vector3d& next = r[(i + 1) % 3];
         area[i] = r[i][x] * next[y] - r[i][y] * next[x];
-        above = above && area[i] > kRounding * size;
-        below = below && area[i] < -kRounding * size;
-        some_above = some_above || area[i] > kRounding * size;
-        some_below = some_below || area[i] < -kRounding * size;
+        above = above && area[i] > kShareOfRounding * size;
+        below = below && area[i] < -kShareOfRounding * size;
+        some_above = some_above || area[i] > kShareOfRounding * size;
+        some_below = some_below || area[i] < -kShareOfRounding * size;
       }
       if (some_above && some_below)
         continue;
       if (!above && !below)
         return {};
       const double height = (area[1] * r[0][axis] + area[2] * r[1][axis] + area[0] * r[2][axis]) * (above ? 1.0 : -1.0);
-      if (std::abs(height) <= kRounding * size * std::sqrt(size))
+      if (std::abs(height) <= kShareOfRounding * size * std::sqrt(size))
         return {};
       if (height > 0.0)
         winding += above ? 1 : -1;

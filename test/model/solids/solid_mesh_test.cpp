@@ -1,7 +1,10 @@
 // Which points a mesh has inside, by brute force over the triangles that count for the solid.
 
 #include <cmath>
+#include <iomanip>
+#include <iostream>
 #include <map>
+#include <numeric>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -583,6 +586,95 @@ TEST(SolidMesh, OfManyChambersHasAll)
     EXPECT_TRUE(contains(*solid, chamber)) << chamber.transpose();
   EXPECT_FALSE(contains(*solid, {3.501, 2.502, 0.503})) << "the corner without a chamber";
   EXPECT_FALSE(contains(*solid, {-0.2, 0.502, 0.503}));
+}
+
+/// Takes triangles away from a mesh, at random places or around one place, while they have at most `share` of the area
+/// that is left.
+struct Removed
+{
+  MeshPointer mesh;
+  double share;
+  std::vector<Vector3d> lost;  // the corners of the missing triangles
+};
+
+Removed withoutShare(const Mesh& mesh, double share, bool in_one_place, std::mt19937_64& generator)
+{
+  const auto corner = [&](std::size_t t, std::size_t i) { return mesh.vertices[mesh.triangles[t][i]]; };
+  std::vector<std::size_t> order(mesh.triangles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::shuffle(order.begin(), order.end(), generator);
+  const Vector3d place = corner(order[0], 0);
+  if (in_one_place)
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b)
+              { return (corner(a, 0) - place).norm() < (corner(b, 0) - place).norm(); });
+  std::vector<double> areas;
+  for (std::size_t t = 0; t < order.size(); ++t)
+    areas.push_back(0.5 * (corner(t, 1) - corner(t, 0)).cross(corner(t, 2) - corner(t, 0)).norm());
+  const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
+  auto copy = std::make_shared<Mesh>(mesh);
+  copy->triangles.clear();
+  Removed removed{copy, 0.0, {}};
+  double lost = 0.0;
+  for (const std::size_t t : order)
+    if (lost + areas[t] <= share / (1.0 + share) * all)
+    {
+      lost += areas[t];
+      removed.lost.insert(removed.lost.end(), {corner(t, 0), corner(t, 1), corner(t, 2)});
+    }
+    else
+      copy->triangles.push_back(mesh.triangles[t]);
+  removed.share = lost / (all - lost);
+  return removed;
+}
+
+TEST(SolidMesh, ChangesAnswersBesideItsHolesOnlyAboveTheLimit)
+{
+  const std::vector<MeshPointer> meshes = {torusMesh(1.0, 0.4), closedSurface("ball", 600, 2.0,
+                                                                              [](double along, double angle)
+                                                                              {
+                                                                                const double r = std::sin(M_PI * along);
+                                                                                return Vector3d(r * std::cos(angle),
+                                                                                                r * std::sin(angle),
+                                                                                                std::cos(M_PI * along));
+                                                                              })};
+  std::mt19937_64 generator(kSeed);
+  std::cout << "missing area  in one place  at random places (share of the inner points that are lost)\n";
+  for (const double share : {0.01, 0.02, 0.05, 0.09, 0.11, 0.15, 0.2, 0.3, 0.5})
+  {
+    std::cout << std::setw(12) << share;
+    for (const bool in_one_place : {true, false})
+    {
+      std::size_t inside = 0;
+      std::size_t lost = 0;
+      for (int repetition = 0; repetition < repetitions(4, 100); ++repetition)
+      {
+        const MeshPointer& mesh = meshes[repetition % 2];
+        const Removed removed = withoutShare(*mesh, share, in_one_place, generator);
+        Eigen::AlignedBox3d hole;
+        for (const Vector3d& point : removed.lost)
+          hole.extend(point);
+        const auto solid = solidMeshOf(removed.mesh);
+        for (int i = 0; i < 60; ++i)
+        {
+          const Vector3d point(1.4 * std::uniform_real_distribution<>(-1.0, 1.0)(generator),
+                               1.4 * std::uniform_real_distribution<>(-1.0, 1.0)(generator),
+                               std::uniform_real_distribution<>(-1.0, 1.0)(generator));
+          const bool expected = isInside(mesh, point);
+          const bool found = contains(*solid, point);
+          inside += expected ? 1 : 0;
+          lost += expected && !found ? 1 : 0;
+          const bool is_beside = removed.share >= kSmallHoles || (in_one_place && hole.contains(point));
+          EXPECT_TRUE(found == expected || is_beside || sampledDistance(*mesh, point) < 0.05)
+              << share << (in_one_place ? ", one place" : ", random places") << ", point " << point.transpose()
+              << ", seed " << kSeed;
+        }
+      }
+      std::cout << std::setw(14) << static_cast<double>(lost) / static_cast<double>(inside);
+      EXPECT_TRUE(share < 2.0 * kSmallHoles || lost == inside) << share;
+    }
+    std::cout << "\n";
+  }
 }
 
 TEST(SolidMesh, OfADamagedMeshHasTheInsideOfTheUndamagedOne)
