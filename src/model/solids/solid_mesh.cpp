@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 #include "gpu_planning_scene/solids.h"
@@ -63,7 +64,15 @@ class TriangleComponents
   std::uint32_t count_ = 0;
 };
 
-/// For each component: whether each of its edges belongs to two triangles of opposite direction.
+/// The corners of a triangle added up. Two triangles with a common edge have the same sum if they have the same
+/// corners.
+std::uint64_t sumOf(const Corners& corners)
+{
+  return std::accumulate(corners.begin(), corners.end(), std::uint64_t{0});
+}
+
+/// For each component: whether each of its edges belongs to two triangles of opposite direction. A triangle and its
+/// back side bound nothing: they may be a part of a surface from which rounding separates them.
 std::vector<bool> closedComponents(const std::vector<Corners>& triangles, const std::vector<EdgeUse>& uses,
                                    const TriangleComponents& components)
 {
@@ -74,7 +83,8 @@ std::vector<bool> closedComponents(const std::vector<Corners>& triangles, const 
   visitEdges(uses,
              [&](auto first, auto last)
              {
-               if (last - first != 2 || first[0].upwards == first[1].upwards)
+               if (last - first != 2 || first[0].upwards == first[1].upwards ||
+                   sumOf(triangles[first[0].triangle]) == sumOf(triangles[first[1].triangle]))
                  closed[components.of(first->triangle)] = false;
              });
   return closed;

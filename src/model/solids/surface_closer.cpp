@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "model/solids/closed_core.h"
@@ -38,6 +39,21 @@ struct Cycle
   double share = 0.0;               // area of the triangles that close the members, as a share of the part's area
 };
 
+/// Each triangle once, in whatever direction.
+std::vector<Corners> withoutCopies(const std::vector<Corners>& triangles)
+{
+  std::set<Corners> seen;
+  std::vector<Corners> once;
+  for (const Corners& t : triangles)
+  {
+    Corners sorted = t;
+    std::sort(sorted.begin(), sorted.end());
+    if (seen.insert(sorted).second)
+      once.push_back(t);
+  }
+  return once;
+}
+
 class SurfaceCloser
 {
  public:
@@ -69,7 +85,7 @@ class SurfaceCloser
           used[place] = true;
     }
     else
-      visitEdges(edgeUses(result_.triangles),
+      visitEdges(edgeUses(withoutCopies(result_.triangles)),
                  [&](auto first, auto last)
                  {
                    if ((last - first) % 2 == 1)
