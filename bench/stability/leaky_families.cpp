@@ -144,10 +144,12 @@ Case besideDamage(std::uint64_t seed, std::size_t index)
   for (const Vector3d& vertex : body.whole->vertices)
     box.extend(vertex);
   const double near = kNearSurface * box.diagonal().norm();
-  for (double size = random.logUniform(1e-3, 0.1);; size *= 0.9)
+  double size = random.logUniform(1e-3, 0.1);
+  // Further and further away: missing triangles may be everywhere.
+  for (double away = 0.0;; away += 0.005, size *= 0.9)
   {
     Eigen::Isometry3d pose(random.rotation());
-    const double reach = random.below(4) == 0 ? 0.6 : 0.45;
+    const double reach = away + (random.below(4) == 0 ? 0.6 : 0.45);
     pose.translation() = box.center() + 2.0 * box.sizes().cwiseProduct(random.inCube(reach / 2.0));
     const auto is_lost = [&](const AlignedBox3d& lost)
     { return lost.exteriorDistance(pose.translation()) < size + near; };

@@ -78,7 +78,7 @@ class PatchComplex
     const std::vector<EdgeUse> uses = edgeUses(surface.triangles);
     findPatches(points, surface.triangles, uses);
     if (volumes_.size() <= kMostPatches)
-      findJoints(uses);
+      findPatchEdges(uses);
   }
 
   std::uint32_t patchOf(std::size_t triangle) const { return patch_of_[triangle]; }
@@ -125,12 +125,12 @@ class PatchComplex
 
  private:
   /// Edges at which the same patches meet in the same way.
-  struct Joint
+  struct PatchEdge
   {
     std::vector<std::pair<std::uint32_t, int>> sums;  // patch; uses upwards minus downwards
     Chosen odd;                                       // patches with an odd number of uses
 
-    bool operator<(const Joint& other) const
+    bool operator<(const PatchEdge& other) const
     {
       return sums != other.sums ? sums < other.sums : odd.to_string() < other.odd.to_string();
     }
@@ -163,34 +163,34 @@ class PatchComplex
     }
   }
 
-  void findJoints(const std::vector<EdgeUse>& uses)
+  void findPatchEdges(const std::vector<EdgeUse>& uses)
   {
-    std::set<Joint> joints;
+    std::set<PatchEdge> edges;
     visitEdges(uses,
                [&](auto first, auto last)
                {
                  if (last - first == 2)
                    return;
-                 Joint joint;
+                 PatchEdge edge;
                  for (auto use = first; use != last; ++use)
                  {
                    const std::uint32_t patch = patch_of_[use->triangle];
-                   joint.sums.emplace_back(patch, use->upwards ? 1 : -1);
-                   joint.odd.flip(patch);
+                   edge.sums.emplace_back(patch, use->upwards ? 1 : -1);
+                   edge.odd.flip(patch);
                  }
-                 std::sort(joint.sums.begin(), joint.sums.end());
-                 joints.insert(std::move(joint));
+                 std::sort(edge.sums.begin(), edge.sums.end());
+                 edges.insert(std::move(edge));
                });
-    joints_.assign(joints.begin(), joints.end());
+    edges_.assign(edges.begin(), edges.end());
   }
 
-  /// Gauss-Jordan elimination: each joint has an even number of the chosen patches' triangles.
+  /// Gauss-Jordan elimination: each edge has an even number of the chosen patches' triangles.
   std::vector<Chosen> closedBasis() const
   {
     std::vector<std::pair<std::size_t, Chosen>> rows;  // pivot, equation
-    for (const Joint& joint : joints_)
+    for (const PatchEdge& edge : edges_)
     {
-      Chosen row = joint.odd;
+      Chosen row = edge.odd;
       for (const auto& [pivot, other] : rows)
         if (row[pivot])
           row ^= other;
@@ -231,10 +231,10 @@ class PatchComplex
     };
     std::vector<std::vector<Neighbour>> neighbours(volumes_.size());
     std::vector<std::pair<std::uint32_t, int>> sums;
-    for (const Joint& joint : joints_)
+    for (const PatchEdge& edge : edges_)
     {
       sums.clear();
-      for (const auto& sum : joint.sums)
+      for (const auto& sum : edge.sums)
         if (surface[sum.first])
           sums.push_back(sum);
       if (sums.size() != 2)
@@ -273,7 +273,7 @@ class PatchComplex
 
   std::vector<std::uint32_t> patch_of_;  // of each triangle
   std::vector<double> volumes_;          // of each patch: of the pyramids between its triangles and a common point
-  std::vector<Joint> joints_;
+  std::vector<PatchEdge> edges_;
 };
 }  // namespace
 

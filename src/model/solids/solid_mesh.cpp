@@ -139,9 +139,10 @@ std::vector<Closing> attempts(double diagonal, SolidRule rule)
   std::vector<Closing> all;
   for (const double share : kTolerances)
     all.push_back({share * diagonal, share == kTolerances.front() ? WeldedCorners::All : WeldedCorners::OfFreeEdges,
-                   false, kSmallHoles});
-  for (const double share : {kTolerances.front(), kTolerances.back()})
-    all.push_back({share * diagonal, WeldedCorners::OfFreeEdges, true, kSmallHoles});
+                   false, ConnectedBy::Edges, kSmallHoles});
+  for (const ConnectedBy connected : {ConnectedBy::Edges, ConnectedBy::Corners})
+    for (const double share : {kTolerances.front(), kTolerances.back()})
+      all.push_back({share * diagonal, WeldedCorners::OfFreeEdges, true, connected, kSmallHoles});
   if (rule == SolidRule::Filled)
     all.back().most_share = std::numeric_limits<double>::infinity();
   return all;

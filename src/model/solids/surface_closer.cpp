@@ -139,7 +139,7 @@ class SurfaceCloser
     return number;
   }
 
-  /// The sets of triangles that are connected by edges.
+  /// The sets of triangles that are connected.
   std::vector<Numbers> partsOf(const Numbers& numbers) const
   {
     DisjointSets sets(numbers.size());
@@ -149,6 +149,13 @@ class SurfaceCloser
                  for (auto use = first; use != last; ++use)
                    sets.unite(first->triangle, use->triangle);
                });
+    if (closing_.connected == ConnectedBy::Corners)
+    {
+      std::map<std::uint32_t, std::uint32_t> first_at;
+      for (std::uint32_t i = 0; i < numbers.size(); ++i)
+        for (const std::uint32_t place : welded_[numbers[i]])
+          sets.unite(first_at.try_emplace(place, i).first->second, i);
+    }
     std::vector<Numbers> parts;
     std::vector<std::size_t> part_of_set(numbers.size(), numbers.size());
     for (std::uint32_t i = 0; i < numbers.size(); ++i)
