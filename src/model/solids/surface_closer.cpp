@@ -67,14 +67,24 @@ class SurfaceCloser
     addSeams(closing.tolerance);
     for (const Numbers& part : partsOf(unique_))
       closePart(part);
-    // A later attempt, which welds less of them, may need them.
-    if (!result_.open.empty() || unique_.empty())
-      result_.open.insert(result_.open.end(), collapsed_.begin(), collapsed_.end());
+    keepCollapsed();
   }
 
   ClosedSurface take() { return std::move(result_); }
 
  private:
+  /// A later attempt, which welds less, may need the collapsed triangles at parts that are still open.
+  void keepCollapsed()
+  {
+    std::set<std::uint32_t> open_places;
+    for (const std::uint32_t t : result_.open)
+      open_places.insert(welded_[t].begin(), welded_[t].end());
+    for (const std::uint32_t t : collapsed_)
+      if (unique_.empty() || std::any_of(welded_[t].begin(), welded_[t].end(),
+                                         [&](std::uint32_t place) { return open_places.count(place) != 0; }))
+        result_.open.push_back(t);
+  }
+
   void weldCorners(double tolerance, WeldedCorners welded)
   {
     std::vector<bool> used(points_.size(), false);
