@@ -20,8 +20,8 @@ using Eigen::Vector3d;
 /// A mesh of many long separate triangles would take minutes. Its seams are not worth them: it bounds no solid.
 constexpr std::size_t kMostSteps = 30'000'000;
 
-/// In seams, an end lies on one edge, seldom on two or three. Where it lies on more of them, edges of a line lie upon one
-/// another, and triangles between them would be as many as pairs of edges.
+/// In seams, an end lies on one edge, seldom on two or three. Where it lies on more of them, edges of a line lie upon
+/// one another, and triangles between them would be as many as pairs of edges.
 constexpr std::size_t kMostEdgesOfAnEnd = 8;
 
 /// A grid of cubes, about one for each point. A long edge visits at most some thousand cubes.
