@@ -139,8 +139,8 @@ std::vector<Closing> attempts(double diagonal, SolidRule rule)
   std::vector<Closing> all;
   for (const double share : kTolerances)
     all.push_back({share * diagonal, share == kTolerances.front() ? WeldedCorners::All : WeldedCorners::OfFreeEdges,
-                   false, ConnectedBy::Edges, kSmallHoles});
-  for (const ConnectedBy connected : {ConnectedBy::Edges, ConnectedBy::Corners})
+                   false, ConnectedBy::CommonEdges, kSmallHoles});
+  for (const ConnectedBy connected : {ConnectedBy::CommonEdges, ConnectedBy::CommonCorners})
     for (const double share : {kTolerances.front(), kTolerances.back()})
       all.push_back({share * diagonal, WeldedCorners::OfFreeEdges, true, connected, kSmallHoles});
   if (rule == SolidRule::Filled)

@@ -42,15 +42,18 @@ struct Cycle
 /// Each triangle once, in whatever direction.
 std::vector<Corners> withoutCopies(const std::vector<Corners>& triangles)
 {
-  std::set<Corners> seen;
-  std::vector<Corners> once;
+  std::vector<std::pair<Corners, std::uint32_t>> sorted;
+  sorted.reserve(triangles.size());
   for (const Corners& t : triangles)
   {
-    Corners sorted = t;
-    std::sort(sorted.begin(), sorted.end());
-    if (seen.insert(sorted).second)
-      once.push_back(t);
+    sorted.emplace_back(t, static_cast<std::uint32_t>(sorted.size()));
+    std::sort(sorted.back().first.begin(), sorted.back().first.end());
   }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<Corners> once;
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    if (i == 0 || sorted[i].first != sorted[i - 1].first)
+      once.push_back(triangles[sorted[i].second]);
   return once;
 }
 
@@ -159,7 +162,7 @@ class SurfaceCloser
                  for (auto use = first; use != last; ++use)
                    sets.unite(first->triangle, use->triangle);
                });
-    if (closing_.connected == ConnectedBy::Corners)
+    if (closing_.connected == ConnectedBy::CommonCorners)
     {
       std::map<std::uint32_t, std::uint32_t> first_at;
       for (std::uint32_t i = 0; i < numbers.size(); ++i)

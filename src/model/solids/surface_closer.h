@@ -22,8 +22,8 @@ struct ClosedSurface
 /// What makes triangles a part.
 enum class ConnectedBy
 {
-  Edges,
-  Corners  ///< missing triangles may cut a surface into pieces that have only corners in common
+  CommonEdges,
+  CommonCorners  ///< missing triangles may cut a surface into pieces that have only corners in common
 };
 
 enum class WeldedCorners
