@@ -258,11 +258,14 @@ std::vector<Shell> shellsOf(const std::vector<Vector3d>& points, const std::vect
              });
   for (const auto& [a, b] : joined)
     sets.unite(a, b);
+  std::vector<bool> used(triangles.size(), false);
+  for (const EdgeUse& use : uses)
+    used[use.triangle] = true;
   std::vector<Shell> shells;
   std::vector<std::uint32_t> shell_of_set(triangles.size(), ~0U);
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
   {
-    if (!hasDistinctCorners(triangles[t]))
+    if (!used[t])
       continue;
     std::uint32_t& number = shell_of_set[sets.find(t)];
     if (number == ~0U)

@@ -222,32 +222,34 @@ void addComponents(SolidMesh& solid, const std::vector<Corners>& triangles, std:
 void turnShells(const Places& places, const std::vector<Corners>& original, const TriangleComponents& components,
                 const std::vector<bool>& closed, const std::vector<EdgeUse>& uses, SolidMesh& solid)
 {
-  const bool is_changed = solid.parts.closed < closed.size();
+  // A closed component shares no edge with other triangles. So the edges of the others suffice, if they were changed.
+  const std::vector<Corners> all = cornersOf(*solid.mesh, places);
+  const auto is_closed = [&](std::uint32_t t) { return t < original.size() && closed[components.of(t)]; };
+  std::vector<EdgeUse> counted_uses;
+  std::copy_if(uses.begin(), uses.end(), std::back_inserter(counted_uses),
+               [&](const EdgeUse& use) { return is_closed(use.triangle); });
+  std::vector<Corners> counted;
   std::vector<std::uint32_t> numbers;
-  std::vector<std::uint32_t> turned;
-  if (is_changed)
+  for (std::uint32_t t = 0; t < all.size(); ++t)
+    if (solid.roles[t] == TriangleRole::Winding && !is_closed(t))
+    {
+      counted.push_back(all[t]);
+      numbers.push_back(t);
+    }
+  for (EdgeUse use : edgeUses(counted))
   {
-    const std::vector<Corners> all = cornersOf(*solid.mesh, places);
-    std::vector<Corners> counted;
-    for (std::uint32_t t = 0; t < all.size(); ++t)
-      if (solid.roles[t] == TriangleRole::Winding)
-      {
-        counted.push_back(all[t]);
-        numbers.push_back(t);
-      }
-    turned = trianglesToTurn(places.points, counted, edgeUses(counted));
+    use.triangle = numbers[use.triangle];
+    counted_uses.push_back(use);
   }
-  else
-    turned = trianglesToTurn(places.points, original, uses);
+  const std::vector<std::uint32_t> turned = trianglesToTurn(places.points, all, counted_uses);
   if (turned.empty())
     return;
   ChangedMesh mesh(solid.mesh, places);
   std::map<std::uint32_t, MeshPart> mended;
-  for (const std::uint32_t i : turned)
+  for (const std::uint32_t t : turned)
   {
-    const std::uint32_t t = is_changed ? numbers[i] : i;
     mesh.turn(t);
-    if (t < original.size() && closed[components.of(t)])
+    if (is_closed(t))
       mended.try_emplace(components.of(t), MeshPart{PartKind::Mended, 0, {}});
   }
   for (std::size_t t = 0; t < original.size(); ++t)
