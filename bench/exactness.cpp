@@ -9,6 +9,7 @@
 #include "gpu/egl_context.h"
 #include "support/carrying_scene.h"
 #include "support/exactness.h"
+#include "support/leaky_scene.h"
 #include "support/near_contact.h"
 
 using namespace gpu_planning_scene::core;
@@ -33,6 +34,7 @@ std::vector<Robot> robots()
           shared("ur5_robotiq", "ur5_table_pick", 10000),
           shared("drchubo", "drchubo", 10000),
           shared("wam", "wam", 10000),
+          {"kr5_leaky", "kr5", 10000, 10000, leakyScene},
           {"ur5_carrying", "ur5_table_pick", 1000, 1000, carryingScene}};
 }
 
@@ -132,7 +134,8 @@ int main(int argc, char** argv)
       "Compares the answers of both traversals, at several batch sizes, and of the CPU checker, with and without\n"
       "proofs (balls and tables of joint values), with an oracle in quadruple precision: 100,000 random states of "
       "kr5,\n"
-      "10,000 of ur5_robotiq, drchubo and wam, 1000 of ur5_carrying (a box in the gripper, padding, a floor); and\n"
+      "10,000 of ur5_robotiq, drchubo, wam and kr5_leaky (objects that are damaged meshes), 1000 of ur5_carrying (a "
+      "box in the gripper, padding, a floor); and\n"
       "10,000 states per robot (1000 of ur5_carrying) within about 1e-4 ... 1e-10 m of contact. Bisection finds\n"
       "these states; half of them are free.\n"
       "Prints a Markdown table: wrong answers by the contract, verdicts that differ from the CPU checker's, states\n"

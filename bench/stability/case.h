@@ -25,6 +25,8 @@ struct Case
   double padding_a = 0.0;
   double padding_b = 0.0;
   bool self = false;
+  std::optional<Shape> true_a;  ///< what the oracle judges instead of `a`: a mesh before it was damaged
+  std::optional<Shape> true_b;
   std::optional<double> known;  ///< the distance by construction, if known to 1e-11 m
 };
 
@@ -61,4 +63,5 @@ std::vector<Family> containmentFamilies();
 std::vector<Family> primitiveFamilies();
 std::vector<Family> paddingFamilies();
 std::vector<Family> literatureFamilies();
+std::vector<Family> leakyFamilies();
 }  // namespace gpu_planning_scene::core::stability

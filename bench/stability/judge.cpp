@@ -28,7 +28,10 @@ struct Judged
 struct Places
 {
   explicit Places(const Case& c)
-    : a(c.a), b(c.b), pose_a(oracle::Motion(c.link_a) * oracle::Motion(c.a_in_link)), pose_b(c.pose_b)
+    : a(c.true_a.value_or(c.a)),
+      b(c.true_b.value_or(c.b)),
+      pose_a(oracle::Motion(c.link_a) * oracle::Motion(c.a_in_link)),
+      pose_b(c.pose_b)
   {
   }
   oracle::PreparedShape a;

@@ -292,7 +292,7 @@ std::vector<Family> allFamilies()
 {
   std::vector<Family> all;
   for (const auto& part : {triangleFamilies(), contactFamilies(), containmentFamilies(), primitiveFamilies(),
-                           paddingFamilies(), literatureFamilies()})
+                           paddingFamilies(), leakyFamilies(), literatureFamilies()})
     all.insert(all.end(), part.begin(), part.end());
   return all;
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/repetitions.h"
 #include "support/shader_folder.h"
 #include "tools/run_program.h"
 
@@ -32,6 +33,14 @@ TEST(Stability, NoAnswerIsWrongInAnyFamily)
   const ProgramOutput output = runStability({"--quick", "--cases", "4"});
   EXPECT_EQ(output.exit_code, 0) << output.err;
   EXPECT_NE(output.out.find("| random rigid motions |"), std::string::npos) << output.out;
+}
+
+// The oracle judges the undamaged meshes: here the closing of damaged meshes is tested too.
+TEST(Stability, NoAnswerIsWrongInDamagedMeshes)
+{
+  const ProgramOutput output =
+      runStability({"--family", "leaky", "--cases", repetitions("64", "10000"), "--proofs", repetitions("4", "1000")});
+  EXPECT_EQ(output.exit_code, 0) << output.err;
 }
 
 TEST(Stability, NoticesErrorBoundsOfZero)

@@ -4,11 +4,13 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <utility>
 
 #include "gpu_planning_scene/solids.h"
 #include "model/solids/disjoint_sets.h"
 #include "model/solids/mesh_edges.h"
+#include "model/solids/shells.h"
 #include "model/solids/surface_closer.h"
 #include "model/solids/welding.h"
 
@@ -62,17 +64,27 @@ class TriangleComponents
   std::uint32_t count_ = 0;
 };
 
-/// For each component: whether each of its edges belongs to two triangles of opposite direction.
-std::vector<bool> closedComponents(const std::vector<Corners>& triangles, const TriangleComponents& components)
+/// The corners of a triangle added up. Two triangles with a common edge have the same sum if they have the same
+/// corners.
+std::uint64_t sumOf(const Corners& corners)
+{
+  return std::accumulate(corners.begin(), corners.end(), std::uint64_t{0});
+}
+
+/// For each component: whether each of its edges belongs to two triangles of opposite direction. A triangle and its
+/// back side bound nothing: they may be a part of a surface from which rounding separates them.
+std::vector<bool> closedComponents(const std::vector<Corners>& triangles, const std::vector<EdgeUse>& uses,
+                                   const TriangleComponents& components)
 {
   std::vector<bool> closed(components.count(), false);
   for (std::size_t t = 0; t < triangles.size(); ++t)
     if (hasDistinctCorners(triangles[t]))
       closed[components.of(t)] = true;
-  visitEdges(edgeUses(triangles),
+  visitEdges(uses,
              [&](auto first, auto last)
              {
-               if (last - first != 2 || first[0].upwards == first[1].upwards)
+               if (last - first != 2 || first[0].upwards == first[1].upwards ||
+                   sumOf(triangles[first[0].triangle]) == sumOf(triangles[first[1].triangle]))
                  closed[components.of(first->triangle)] = false;
              });
   return closed;
@@ -94,8 +106,10 @@ class ChangedMesh
   {
     const auto& vertices = mesh_->triangles[triangle];
     if (places_.of_vertex[vertices[1]] != corners[1])
-      std::swap(copy().triangles[triangle][1], copy().triangles[triangle][2]);
+      turn(triangle);
   }
+
+  void turn(std::size_t triangle) { std::swap(copy().triangles[triangle][1], copy().triangles[triangle][2]); }
 
   void add(const Corners& corners)
   {
@@ -125,9 +139,10 @@ std::vector<Closing> attempts(double diagonal, SolidRule rule)
   std::vector<Closing> all;
   for (const double share : kTolerances)
     all.push_back({share * diagonal, share == kTolerances.front() ? WeldedCorners::All : WeldedCorners::OfFreeEdges,
-                   false, kSmallHoles});
-  for (const double share : {kTolerances.front(), kTolerances.back()})
-    all.push_back({share * diagonal, WeldedCorners::OfFreeEdges, true, kSmallHoles});
+                   false, ConnectedBy::CommonEdges, kSmallHoles});
+  for (const ConnectedBy connected : {ConnectedBy::CommonEdges, ConnectedBy::CommonCorners})
+    for (const double share : {kTolerances.front(), kTolerances.back()})
+      all.push_back({share * diagonal, WeldedCorners::OfFreeEdges, true, connected, kSmallHoles});
   if (rule == SolidRule::Filled)
     all.back().most_share = std::numeric_limits<double>::infinity();
   return all;
@@ -202,6 +217,54 @@ void addComponents(SolidMesh& solid, const std::vector<Corners>& triangles, std:
   }
 }
 
+/// Turns the shells that would cancel others. `uses` are those of all triangles, of which `closed` tells whether their
+/// component is closed as it is in the file.
+void turnShells(const Places& places, const std::vector<Corners>& original, const TriangleComponents& components,
+                const std::vector<bool>& closed, const std::vector<EdgeUse>& uses, SolidMesh& solid)
+{
+  // A closed component shares no edge with other triangles. So the edges of the others suffice, if they were changed.
+  const std::vector<Corners> all = cornersOf(*solid.mesh, places);
+  const auto is_closed = [&](std::uint32_t t) { return t < original.size() && closed[components.of(t)]; };
+  std::vector<EdgeUse> counted_uses;
+  std::copy_if(uses.begin(), uses.end(), std::back_inserter(counted_uses),
+               [&](const EdgeUse& use) { return is_closed(use.triangle); });
+  std::vector<Corners> counted;
+  std::vector<std::uint32_t> numbers;
+  for (std::uint32_t t = 0; t < all.size(); ++t)
+    if (solid.roles[t] == TriangleRole::Winding && !is_closed(t))
+    {
+      counted.push_back(all[t]);
+      numbers.push_back(t);
+    }
+  for (EdgeUse use : edgeUses(counted))
+  {
+    use.triangle = numbers[use.triangle];
+    counted_uses.push_back(use);
+  }
+  const std::vector<std::uint32_t> turned = trianglesToTurn(places.points, all, counted_uses);
+  if (turned.empty())
+    return;
+  ChangedMesh mesh(solid.mesh, places);
+  std::map<std::uint32_t, MeshPart> mended;
+  for (const std::uint32_t t : turned)
+  {
+    mesh.turn(t);
+    if (is_closed(t))
+      mended.try_emplace(components.of(t), MeshPart{PartKind::Mended, 0, {}});
+  }
+  for (std::size_t t = 0; t < original.size(); ++t)
+    if (const auto part = mended.find(components.of(t)); part != mended.end())
+    {
+      ++part->second.triangles;
+      for (const std::uint32_t place : original[t])
+        part->second.bounds.extend(places.points[place]);
+    }
+  for (const auto& [component, part] : mended)
+    solid.parts.other.push_back(part);
+  solid.parts.closed -= mended.size();
+  solid.mesh = mesh.get();
+}
+
 SolidMesh makeSolidMesh(const std::shared_ptr<const Mesh>& mesh)
 {
   const Places places = placesOf(mesh->vertices);
@@ -210,7 +273,8 @@ SolidMesh makeSolidMesh(const std::shared_ptr<const Mesh>& mesh)
   SolidMesh solid{mesh, std::vector<TriangleRole>(triangles.size(), TriangleRole::Surface), {}, {}};
   if (mesh->solid != SolidRule::Surface)
   {
-    const std::vector<bool> closed = closedComponents(triangles, components);
+    const std::vector<EdgeUse> uses = edgeUses(triangles);
+    const std::vector<bool> closed = closedComponents(triangles, uses, components);
     solid.parts.closed = static_cast<std::size_t>(std::count(closed.begin(), closed.end(), true));
     std::vector<std::uint32_t> open;
     Eigen::AlignedBox3d bounds;
@@ -225,6 +289,7 @@ SolidMesh makeSolidMesh(const std::shared_ptr<const Mesh>& mesh)
     }
     if (!open.empty())
       closeOpenParts(triangles, places, bounds.diagonal().norm(), std::move(open), solid);
+    turnShells(places, triangles, components, closed, uses, solid);
   }
   else
   {

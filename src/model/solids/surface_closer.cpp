@@ -1,15 +1,16 @@
 #include "model/solids/surface_closer.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <iterator>
 #include <limits>
 #include <map>
-#include <numeric>
+#include <set>
 #include <utility>
 
+#include "model/solids/closed_core.h"
 #include "model/solids/disjoint_sets.h"
+#include "model/solids/free_rims.h"
 #include "model/solids/hole_filling.h"
 #include "model/solids/orientation.h"
 #include "model/solids/seams.h"
@@ -38,6 +39,24 @@ struct Cycle
   double share = 0.0;               // area of the triangles that close the members, as a share of the part's area
 };
 
+/// Each triangle once, in whatever direction.
+std::vector<Corners> withoutCopies(const std::vector<Corners>& triangles)
+{
+  std::vector<std::pair<Corners, std::uint32_t>> sorted;
+  sorted.reserve(triangles.size());
+  for (const Corners& t : triangles)
+  {
+    sorted.emplace_back(t, static_cast<std::uint32_t>(sorted.size()));
+    std::sort(sorted.back().first.begin(), sorted.back().first.end());
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<Corners> once;
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+    if (i == 0 || sorted[i].first != sorted[i - 1].first)
+      once.push_back(triangles[sorted[i].second]);
+  return once;
+}
+
 class SurfaceCloser
 {
  public:
@@ -51,14 +70,24 @@ class SurfaceCloser
     addSeams(closing.tolerance);
     for (const Numbers& part : partsOf(unique_))
       closePart(part);
-    // A later attempt, which welds less of them, may need them.
-    if (!result_.open.empty() || unique_.empty())
-      result_.open.insert(result_.open.end(), collapsed_.begin(), collapsed_.end());
+    keepCollapsed();
   }
 
   ClosedSurface take() { return std::move(result_); }
 
  private:
+  /// A later attempt, which welds less, may need the collapsed triangles at parts that are still open.
+  void keepCollapsed()
+  {
+    std::set<std::uint32_t> open_places;
+    for (const std::uint32_t t : result_.open)
+      open_places.insert(welded_[t].begin(), welded_[t].end());
+    for (const std::uint32_t t : collapsed_)
+      if (unique_.empty() || std::any_of(welded_[t].begin(), welded_[t].end(),
+                                         [&](std::uint32_t place) { return open_places.count(place) != 0; }))
+        result_.open.push_back(t);
+  }
+
   void weldCorners(double tolerance, WeldedCorners welded)
   {
     std::vector<bool> used(points_.size(), false);
@@ -69,7 +98,7 @@ class SurfaceCloser
           used[place] = true;
     }
     else
-      visitEdges(edgeUses(result_.triangles),
+      visitEdges(edgeUses(withoutCopies(result_.triangles)),
                  [&](auto first, auto last)
                  {
                    if ((last - first) % 2 == 1)
@@ -109,16 +138,21 @@ class SurfaceCloser
     for (const std::uint32_t t : unique_)
       triangles.push_back(welded_[t]);
     for (const Corners& seam : seamTriangles(points_, triangles, tolerance))
-    {
-      unique_.push_back(static_cast<std::uint32_t>(welded_.size()));
-      welded_.push_back(seam);
-      copies_.push_back({unique_.back()});
-      result_.triangles.push_back(seam);
-      result_.roles.push_back(TriangleRole::Surface);
-    }
+      unique_.push_back(addTriangle(seam, TriangleRole::Surface));
   }
 
-  /// The sets of triangles that are connected by edges.
+  /// Returns the triangle's number.
+  std::uint32_t addTriangle(const Corners& triangle, TriangleRole role)
+  {
+    const auto number = static_cast<std::uint32_t>(result_.triangles.size());
+    result_.triangles.push_back(triangle);
+    result_.roles.push_back(role);
+    welded_.push_back(triangle);
+    copies_.push_back({number});
+    return number;
+  }
+
+  /// The sets of triangles that are connected.
   std::vector<Numbers> partsOf(const Numbers& numbers) const
   {
     DisjointSets sets(numbers.size());
@@ -128,6 +162,13 @@ class SurfaceCloser
                  for (auto use = first; use != last; ++use)
                    sets.unite(first->triangle, use->triangle);
                });
+    if (closing_.connected == ConnectedBy::CommonCorners)
+    {
+      std::map<std::uint32_t, std::uint32_t> first_at;
+      for (std::uint32_t i = 0; i < numbers.size(); ++i)
+        for (const std::uint32_t place : welded_[numbers[i]])
+          sets.unite(first_at.try_emplace(place, i).first->second, i);
+    }
     std::vector<Numbers> parts;
     std::vector<std::size_t> part_of_set(numbers.size(), numbers.size());
     for (std::uint32_t i = 0; i < numbers.size(); ++i)
@@ -152,7 +193,8 @@ class SurfaceCloser
     return corners;
   }
 
-  void closePart(const Numbers& part)
+  /// `filled`: holes whose triangles are already in the part.
+  void closePart(const Numbers& part, const std::vector<FilledHole>& filled = {})
   {
     const OrientedSurface once = orient(points_, cornersOf(part));
     // Two volumes with a common wall have it twice. Without the wall they are one volume.
@@ -163,12 +205,12 @@ class SurfaceCloser
     const OrientedSurface outer = has_walls ? orient(points_, cornersOf(without_walls)) : OrientedSurface();
     const bool is_closed = once.boundary.empty() || once.even;
     const bool is_outer_closed = has_walls && (outer.boundary.empty() || outer.even);
-    if (!is_closed && !is_outer_closed && closeCore(part))
+    if (!is_closed && !is_outer_closed && closeCore(part, once, filled))
       return;
     if (once.boundary.empty() || (is_closed && !(is_outer_closed && outer.boundary.empty())))
-      return accept(completed(part, once), part);
+      return accept(completed(part, once), part, filled);
     if (is_outer_closed)
-      return accept(completed(without_walls, outer), part);
+      return accept(completed(without_walls, outer), part, filled);
     Cycle cycle = completed(part, once);
     if (has_walls)
     {
@@ -176,64 +218,62 @@ class SurfaceCloser
       if (outer_cycle.share < cycle.share)
         cycle = std::move(outer_cycle);
     }
-    accept(cycle, part);
+    accept(cycle, part, filled);
   }
 
-  /// Takes away the triangles at free edges until none is left, for example a fin on a closed surface. If the rest is
-  /// closed, closes it and the parts of what was taken away, and returns true.
-  bool closeCore(const Numbers& part)
+  /// Closes the part's largest closed surface, and separately what has free edges beside it, for example a fin. If the
+  /// free edges are the rims of small holes, these are filled first. False if the part has no closed surface, or may
+  /// have a larger one in an attempt that fills holes.
+  bool closeCore(const Numbers& part, const OrientedSurface& once, const std::vector<FilledHole>& filled)
   {
     const std::vector<Corners> corners = cornersOf(part);
-    const std::vector<EdgeUse> uses = edgeUses(corners);
-    struct Edge
+    const std::vector<CorePlace> places = closedCore(points_, corners);
+    Numbers core;
+    Numbers core_and_walls;
+    Numbers rest;
+    double area = 0.0;
+    double rest_area = 0.0;
+    for (std::size_t i = 0; i < part.size(); ++i)
     {
-      std::size_t first, last;
-      std::size_t left;
-    };
-    std::vector<Edge> edges;
-    std::vector<std::array<std::size_t, 3>> edges_of(part.size());
-    std::vector<int> known(part.size(), 0);
-    for (std::size_t first = 0; first < uses.size();)
-    {
-      std::size_t last = first;
-      while (last < uses.size() && uses[last].sameEdge(uses[first]))
-        edges_of[uses[last].triangle][known[uses[last].triangle]++] = edges.size(), ++last;
-      edges.push_back({first, last, last - first});
-      first = last;
+      if (places[i] == CorePlace::Core)
+        core.push_back(part[i]);
+      (places[i] == CorePlace::Beside ? rest : core_and_walls).push_back(part[i]);
+      area += areaOf(points_, corners[i]);
+      rest_area += places[i] == CorePlace::Beside ? areaOf(points_, corners[i]) : 0.0;
     }
-    std::vector<bool> taken(part.size(), false);
-    std::vector<std::size_t> open(edges.size());
-    std::iota(open.begin(), open.end(), std::size_t{0});
-    while (!open.empty())
+    if (filled.empty() && !rest.empty() && (!core.empty() || closing_.fills_holes))
     {
-      const Edge edge = edges[open.back()];
-      open.pop_back();
-      if (edge.left != 1)
-        continue;
-      std::size_t use = edge.first;
-      while (taken[uses[use].triangle])
-        ++use;
-      const std::uint32_t t = uses[use].triangle;
-      taken[t] = true;
-      for (const std::size_t e : edges_of[t])
+      const std::vector<BoundaryEdge> rims = freeRims(points_, once.triangles);
+      // A surface without other boundary is filled as a whole.
+      const std::vector<FilledHole> holes =
+          rims.size() == once.boundary.size() ? std::vector<FilledHole>() : fillHoles(points_, rims);
+      double holes_area = 0.0;
+      for (const FilledHole& hole : holes)
+        holes_area += hole.area;
+      // A fin, which is not worth to be filled, has a filling of about its own area.
+      if (!holes.empty() && holes_area <= closing_.most_share * area && holes_area < 0.5 * rest_area)
       {
-        --edges[e].left;
-        open.push_back(e);
+        if (!closing_.fills_holes)
+          return false;
+        closePart(withHoles(part, holes), holes);
+        return true;
       }
     }
-    Numbers core;
-    Numbers rest;
-    for (std::size_t i = 0; i < part.size(); ++i)
-      (taken[i] ? rest : core).push_back(part[i]);
-    if (core.empty() || rest.empty())
+    if (core.empty())
       return false;
-    const OrientedSurface closed = orient(points_, cornersOf(core));
-    if (!closed.boundary.empty() && !closed.even)
-      return false;
-    accept(completed(core, closed), core);
+    accept(completed(core, orient(points_, cornersOf(core))), core_and_walls, filled);
     for (const Numbers& other : partsOf(rest))
       closePart(other);
     return true;
+  }
+
+  /// Fillings become triangles like those of the input, at the end of the list.
+  Numbers withHoles(Numbers part, const std::vector<FilledHole>& holes)
+  {
+    for (const FilledHole& hole : holes)
+      for (const Corners& triangle : hole.triangles)
+        part.push_back(addTriangle(triangle, TriangleRole::Surface));
+    return part;
   }
 
   /// The cycle of an oriented surface: with its holes filled, unless it is closed or parity decides.
@@ -293,9 +333,11 @@ class SurfaceCloser
     return added;
   }
 
-  /// Adds a cycle to the solid, unless too much of it would have to be added.
-  void accept(const Cycle& cycle, const Numbers& part)
+  /// Adds a cycle to the solid, unless too much of it would have to be added. `filled`: holes whose triangles are
+  /// members.
+  void accept(Cycle cycle, const Numbers& part, const std::vector<FilledHole>& filled)
   {
+    cycle.holes.insert(cycle.holes.end(), filled.begin(), filled.end());
     if (cycle.chain.empty() || !(cycle.share <= closing_.most_share))
     {
       for (const std::uint32_t t : part)
@@ -311,10 +353,7 @@ class SurfaceCloser
         result_.roles[cycle.members[i]] = cycle.role;
       }
       else
-      {
-        result_.triangles.push_back(cycle.chain[i]);
-        result_.roles.push_back(cycle.role);
-      }
+        addTriangle(cycle.chain[i], cycle.role);
     report(part, cycle.holes.empty() ? PartKind::Mended : PartKind::Filled, cycle);
   }
 

@@ -19,6 +19,13 @@ struct ClosedSurface
   std::vector<std::uint32_t> open;  ///< the numbers of the input's triangles in parts of the kind Surface
 };
 
+/// What makes triangles a part.
+enum class ConnectedBy
+{
+  CommonEdges,
+  CommonCorners  ///< missing triangles may cut a surface into pieces that have only corners in common
+};
+
 enum class WeldedCorners
 {
   All,
@@ -30,7 +37,8 @@ struct Closing
 {
   double tolerance;  ///< metres, for welding and seams
   WeldedCorners welded;
-  bool fills_holes;   ///< false: a part with a hole remains a surface
+  bool fills_holes;  ///< false: a part with a hole remains a surface
+  ConnectedBy connected;
   double most_share;  ///< a part remains a surface if the triangles that close it have more than this share of its area
 };
 

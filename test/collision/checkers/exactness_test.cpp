@@ -9,6 +9,7 @@
 
 #include "support/carrying_scene.h"
 #include "support/exactness.h"
+#include "support/leaky_scene.h"
 #include "support/near_contact.h"
 #include "support/repetitions.h"
 #include "support/seed.h"
@@ -43,11 +44,15 @@ struct Compared
 Compared& comparedCalled(const Slice& slice)
 {
   static std::map<std::string, Compared> made;
-  const bool carrying = std::string(slice.name) == "carrying";
   const auto known = made.find(slice.name);
   if (known != made.end())
     return known->second;
-  return made.try_emplace(slice.name, carrying ? carryingScene() : testScene(slice.scene)).first->second;
+  const std::string name = slice.name;
+  return made
+      .try_emplace(name, name == "carrying" ? carryingScene()
+                         : name == "leaky"  ? leakyScene()
+                                            : testScene(slice.scene))
+      .first->second;
 }
 
 class Exact : public testing::TestWithParam<Slice>
@@ -103,6 +108,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Slice{"ur5_robotiq", "ur5_table_pick", repetitions(60U, 200U), repetitions(30U, 100U)},
                     Slice{"wam", "wam", repetitions(60U, 200U), repetitions(30U, 100U)},
                     Slice{"drchubo", "drchubo", repetitions(15U, 50U), repetitions(6U, 10U)},
+                    Slice{"leaky", "kr5", repetitions(60U, 400U), repetitions(20U, 100U)},
                     Slice{"carrying", "ur5_table_pick", repetitions(20U, 30U), repetitions(10U, 20U)}),
     [](const auto& parameter) { return std::string(parameter.param.name); });
 }  // namespace
