@@ -117,6 +117,15 @@ RobotProofs ballsOf(const CollisionProblem& problem, const CpuForest& forest)
   return proofs;
 }
 
+/// Sets the variables of a floating joint.
+void setFloating(const Eigen::Isometry3d& pose, const Joint& joint, std::vector<double>& state)
+{
+  const Eigen::Quaterniond rotation(pose.linear());
+  double* const values = &state[static_cast<std::size_t>(joint.first_variable)];
+  Eigen::Map<Eigen::Vector3d>{values} = pose.translation();
+  Eigen::Map<Eigen::Vector4d>{values + 3} = rotation.coeffs();
+}
+
 /// The verdict that the lane kernel proves for a case.
 Proof proofOf(const std::shared_ptr<const RobotModel>& robot, const Case& made, const Eigen::Vector3d& origin)
 {
@@ -128,10 +137,12 @@ Proof proofOf(const std::shared_ptr<const RobotModel>& robot, const Case& made, 
   const lanes::Scratch scratch = buffers.of(scene);
   std::vector<Eigen::Isometry3d> poses(part.linkCount());
   part.linkPoses(0, poses.data());
-  for (int lane = 0; lane < lanes::kLanes; ++lane)
-    if (!scene.fillGiven(poses.data(), lane, scratch.given))
-      return Proof::None;
-  const std::vector<double> state = robot->defaultState();  // the kernel takes the poses from `scratch`
+  std::vector<double> state = robot->defaultState();
+  setFloating(poses[0], robot->joints()[static_cast<std::size_t>(robot->jointIndex("base"))], state);
+  setFloating(poses[0].inverse() * poses[1], robot->joints()[static_cast<std::size_t>(robot->jointIndex("between"))],
+              state);
+  if (!scene.isWithinBounds(state.data()))
+    return Proof::None;
   lanes::Block block;
   lanes::availableKernels().front().kernel(scene.model(), state.data(), 1, nullptr, scratch, block);
   return block.proof[0];
