@@ -61,8 +61,8 @@ inline Floats jointValues(const Frame& frame, const Model& model, const double* 
 {
   Doubles values;
   for (int lane = 0; lane < kLanes; ++lane)
-    values[lane] = states[(lane < count ? static_cast<unsigned>(lane) : 0U) * model.width +
-                          static_cast<unsigned>(frame.variable)];
+    values[lane] =
+        states[(lane < count ? static_cast<unsigned>(lane) : 0U) * model.width + static_cast<unsigned>(frame.variable)];
   values = frame.multiplier * values + frame.offset;
   return __builtin_convertvector(frame.kind == FrameKind::Revolute ? wrapped(values) : values, Floats);
 }
