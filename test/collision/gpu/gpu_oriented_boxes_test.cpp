@@ -34,7 +34,7 @@ class GpuOrientedBoxesTest : public testing::Test
  protected:
   static Tessellation soup(std::size_t triangles, const std::function<Vector3d()>& corner)
   {
-    return {triangleSoup(triangles, corner), 0.0};
+    return tessellate(triangleSoup(triangles, corner));
   }
 
   void build(const std::vector<Tessellation>& shapes)
