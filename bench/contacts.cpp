@@ -187,9 +187,8 @@ int main(int argc, char** argv)
       "contacts",
       "[--poses N] [--kind NAME] [--padding METRES] [--seed S]",
       "Computes the contacts of random colliding bodies of each pair of kinds. Moves the held body by the depth along\n"
-      "the normal and checks with the oracle of the tests and with the exact checker that the collision has ended, "
-      "that\n"
-      "the points belong to both bodies, up to 1e-6 m, and that each depth is above 0. Prints a Markdown table.\n"
+      "the normal. Then checks with the oracle of the tests and with the exact checker that the collision has ended,\n"
+      "that the points belong to both bodies, up to 1e-6 m, and that each depth is above 0. Prints a Markdown table.\n"
       "Exit code: 0 all promises are kept, 1 one is not, or another error, 2 bad usage.",
       {{"--poses", "N", "poses for each pair of kinds (default 10000)"},
        {"--kind", "NAME", "only pairs with this kind, for example \"box\""},

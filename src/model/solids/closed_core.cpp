@@ -10,7 +10,6 @@
 
 #include <Eigen/Geometry>
 
-#include "model/solids/disjoint_sets.h"
 #include "model/solids/orientation.h"
 
 // The surfaces with an even number of triangles at each edge are a vector space over the integers modulo 2 (J. R.
@@ -127,25 +126,16 @@ class PatchComplex
   /// Edges at which the same patches meet in the same way.
   struct PatchEdge
   {
-    std::vector<std::pair<std::uint32_t, int>> sums;  // patch; uses upwards minus downwards
-    Chosen odd;                                       // patches with an odd number of uses
+    std::vector<std::pair<std::uint32_t, int>> sums;  // of each use, in ascending order: the patch; 1 upwards, else -1
+    Chosen odd;                                       // patches with an odd number of uses; follows from `sums`
 
-    bool operator<(const PatchEdge& other) const
-    {
-      return sums != other.sums ? sums < other.sums : odd.to_string() < other.odd.to_string();
-    }
+    bool operator<(const PatchEdge& other) const { return sums < other.sums; }
   };
 
   void findPatches(const std::vector<Vector3d>& points, const std::vector<Corners>& triangles,
                    const std::vector<EdgeUse>& uses)
   {
-    DisjointSets sets(triangles.size());
-    visitEdges(uses,
-               [&](auto first, auto last)
-               {
-                 if (last - first == 2)
-                   sets.unite(first[0].triangle, first[1].triangle);
-               });
+    DisjointSets sets = patchSets(uses, triangles.size());
     constexpr std::uint32_t kNone = ~0U;
     std::vector<std::uint32_t> number_of_set(triangles.size(), kNone);
     const Vector3d origin = triangles.empty() ? Vector3d::Zero() : points[triangles[0][0]];

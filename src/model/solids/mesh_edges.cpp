@@ -50,4 +50,16 @@ std::vector<EdgeUse> edgeUses(const std::vector<Corners>& triangles)
               { return a.high != b.high ? a.high < b.high : a.triangle < b.triangle; });
   return uses;
 }
+
+DisjointSets patchSets(const std::vector<EdgeUse>& uses, std::size_t triangles)
+{
+  DisjointSets sets(triangles);
+  visitEdges(uses,
+             [&](auto first, auto last)
+             {
+               if (last - first == 2)
+                 sets.unite(first[0].triangle, first[1].triangle);
+             });
+  return sets;
+}
 }  // namespace gpu_planning_scene::core

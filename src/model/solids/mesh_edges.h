@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "model/solids/disjoint_sets.h"
+
 namespace gpu_planning_scene::core
 {
 /// The places of a triangle's corners. A place is the number of a point; several vertices may have one place.
@@ -31,6 +33,9 @@ struct EdgeUse
 /// The uses of all edges of the triangles with distinct corners. Uses of the same edge are neighbours, in the order of
 /// their triangles.
 std::vector<EdgeUse> edgeUses(const std::vector<Corners>& triangles);
+
+/// The patches of a surface, as sets of its triangles: triangles with a common edge that no third one uses are in one.
+DisjointSets patchSets(const std::vector<EdgeUse>& uses, std::size_t triangles);
 
 /// Calls visit(first, last) with the uses of each edge.
 template <class Visit>

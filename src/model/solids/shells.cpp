@@ -7,8 +7,6 @@
 
 #include <Eigen/Geometry>
 
-#include "model/solids/disjoint_sets.h"
-
 // Shells form a forest: the parent of a shell is the smallest one that it lies in. From the roots on, a shell adds 1 to
 // the winding number, or takes 1 away if it is a cavity. Triangles are apart if an axis separates them (S. Gottschalk:
 // Separating axis theorem, 1996). A shell that is not proven to lie in another one is no cavity, so doubt makes a solid
@@ -31,7 +29,7 @@ struct Shell
   int winding = 1;      // in the shell, after turning
   bool turned = false;
 
-  double diagonal() const { return box.diagonal().squaredNorm(); }
+  double squaredDiagonal() const { return box.diagonal().squaredNorm(); }
 };
 
 bool liesStrictlyIn(const AlignedBox3d& inner, const AlignedBox3d& outer)
@@ -224,13 +222,7 @@ class Nesting
 std::vector<Shell> shellsOf(const std::vector<Vector3d>& points, const std::vector<Corners>& triangles,
                             const std::vector<EdgeUse>& uses)
 {
-  DisjointSets sets(triangles.size());
-  visitEdges(uses,
-             [&](auto first, auto last)
-             {
-               if (last - first == 2)
-                 sets.unite(first[0].triangle, first[1].triangle);
-             });
+  DisjointSets sets = patchSets(uses, triangles.size());
   std::vector<std::pair<std::uint32_t, std::uint32_t>> joined;
   std::vector<std::pair<std::uint32_t, int>> sums;
   visitEdges(uses,
@@ -296,7 +288,7 @@ std::vector<std::uint32_t> trianglesToTurn(const std::vector<Vector3d>& points, 
   if (negative == 0 || negative == static_cast<std::ptrdiff_t>(shells.size()))
     return {};
   std::stable_sort(shells.begin(), shells.end(),
-                   [](const Shell& a, const Shell& b) { return a.diagonal() > b.diagonal(); });
+                   [](const Shell& a, const Shell& b) { return a.squaredDiagonal() > b.squaredDiagonal(); });
   Nesting nesting(points, triangles);
   for (auto shell = shells.begin(); shell != shells.end(); ++shell)
   {

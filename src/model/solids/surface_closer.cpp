@@ -222,8 +222,8 @@ class SurfaceCloser
   }
 
   /// Closes the part's largest closed surface, and separately what has free edges beside it, for example a fin. If the
-  /// free edges are the rims of small holes, these are filled first. False if the part has no closed surface, or may
-  /// have a larger one in an attempt that fills holes.
+  /// free edges are the rims of small holes, these are filled first. Returns false if the part has no closed surface,
+  /// or if an attempt that fills holes may give a larger one.
   bool closeCore(const Numbers& part, const OrientedSurface& once, const std::vector<FilledHole>& filled)
   {
     const std::vector<Corners> corners = cornersOf(part);
@@ -250,7 +250,7 @@ class SurfaceCloser
       double holes_area = 0.0;
       for (const FilledHole& hole : holes)
         holes_area += hole.area;
-      // A fin, which is not worth to be filled, has a filling of about its own area.
+      // The filling of a fin has about the area of the fin itself, so it is not worth filling.
       if (!holes.empty() && holes_area <= closing_.most_share * area && holes_area < 0.5 * rest_area)
       {
         if (!closing_.fills_holes)

@@ -19,7 +19,7 @@ struct ClosedSurface
   std::vector<std::uint32_t> open;  ///< the numbers of the input's triangles in parts of the kind Surface
 };
 
-/// What makes triangles a part.
+/// Triangles are in one part if a chain of these connects them.
 enum class ConnectedBy
 {
   CommonEdges,
