@@ -216,7 +216,7 @@ class RobotModel : public std::enable_shared_from_this<RobotModel>
   /// not above 0, or if a scaled shape is not valid.
   std::shared_ptr<const RobotModel> scaled(const std::vector<double>& factors) const;
   /// The robot with other rules for the meshes of some links, by name. It keeps its scale. Throws Error for an unknown
-  /// link.
+  /// link, and for a link without a mesh.
   std::shared_ptr<const RobotModel> withSolids(const std::map<std::string, SolidRule>& rules) const;
 
   /// The scale factors of this robot, one per link; empty: all 1.

@@ -37,10 +37,16 @@ TEST(SolidsOfLinks, AreThoseOfTheirRules)
   EXPECT_TRUE(isSolid(*third, "cart"));
   EXPECT_TRUE(isSolid(*third, "pole"));
   EXPECT_EQ(third, third->withSolids({{"pole", SolidRule::Filled}})) << "the same rules are the same robot";
-  EXPECT_EQ("solid of link 'tail': the robot has no such link", errorOf(
-                                                                    [&] {
-                                                                      robot->withSolids({{"tail", SolidRule::Filled}});
-                                                                    }));
+  const auto error_for = [](const RobotModel& of, const std::string& link) {
+    return errorOf([&] { of.withSolids({{link, SolidRule::Filled}}); });
+  };
+  EXPECT_EQ("solid of link 'tail': the robot has no such link", error_for(*robot, "tail"));
+  const auto primitives = RobotModel::fromXml(
+      "<robot name='ball'><link name='ball'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>"
+      "</robot>",
+      "<robot name='ball'/>", {});
+  EXPECT_EQ("solid of link 'ball': the link has no mesh; only meshes have a rule for their solid",
+            error_for(*primitives, "ball"));
 }
 
 TEST(SolidsOfLinks, KeepTheirScaleAndAreKeptWhenScaled)

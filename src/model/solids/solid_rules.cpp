@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -53,7 +54,12 @@ std::shared_ptr<const RobotModel> RobotModel::withSolids(const std::map<std::str
     const int link = linkIndex(name);
     if (link < 0)
       throw Error("solid of link '" + name + "': the robot has no such link");
-    is_changed = setSolidRule(result->links_[static_cast<std::size_t>(link)].shapes, rule) || is_changed;
+    std::vector<PlacedShape>& shapes = result->links_[static_cast<std::size_t>(link)].shapes;
+    if (std::none_of(shapes.begin(), shapes.end(),
+                     [](const PlacedShape& placed)
+                     { return std::holds_alternative<std::shared_ptr<const Mesh>>(placed.shape); }))
+      throw Error("solid of link '" + name + "': the link has no mesh; only meshes have a rule for their solid");
+    is_changed = setSolidRule(shapes, rule) || is_changed;
   }
   if (!is_changed)
     return shared_from_this();
