@@ -199,7 +199,7 @@ void CheckQueue::relieve()
       wake_.wait(lock);
     else if (Clock::now() < due)
       wake_.wait_until(lock, due);
-    else if (!relieve(first, lock))
+    else if (!answerByRelief(first, lock))
       rest = Clock::now() + kReliefRest;
   }
 }
@@ -207,7 +207,7 @@ void CheckQueue::relieve()
 /// Answers a request of few states and those that can be merged with it. Without a request (the end of the queue), only
 /// makes the checker. Returns false if there is no checker: the first thread then answers the requests, or says what is
 /// wrong with the scene. The caller holds the lock.
-bool CheckQueue::relieve(Batch::iterator first, std::unique_lock<std::mutex>& lock)
+bool CheckQueue::answerByRelief(Batch::iterator first, std::unique_lock<std::mutex>& lock)
 {
   Batch batch = first == waiting_.end() ? Batch() : take(first, kFewStates);
   lock.unlock();

@@ -51,7 +51,7 @@ class CheckQueue
 
   void run();
   void relieve();
-  bool relieve(Batch::iterator first, std::unique_lock<std::mutex>& lock);
+  bool answerByRelief(Batch::iterator first, std::unique_lock<std::mutex>& lock);
   void giveBack(Batch& batch);
   Batch nextBatch();
   Batch take(Batch::iterator first, std::size_t max_states);
