@@ -1,6 +1,8 @@
 #include "stability/ours.h"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 
 #include "collision/exact/binned_sah.h"
 #include "collision/exact/cpu_traversal.h"
@@ -126,7 +128,7 @@ void setFloating(const Eigen::Isometry3d& pose, const Joint& joint, std::vector<
   Eigen::Map<Eigen::Vector4d>{values + 3} = rotation.coeffs();
 }
 
-/// The verdict that the lane kernel proves for a case.
+/// The verdict that the lane kernels of all instruction sets prove for a case.
 Proof proofOf(const std::shared_ptr<const RobotModel>& robot, const Case& made, const Eigen::Vector3d& origin)
 {
   const Part part(&made, 1, origin);
@@ -143,9 +145,18 @@ Proof proofOf(const std::shared_ptr<const RobotModel>& robot, const Case& made, 
               state);
   if (!scene.isWithinBounds(state.data()))
     return Proof::None;
-  lanes::Block block;
-  lanes::availableKernels().front().kernel(scene.model(), state.data(), 1, nullptr, scratch, block);
-  return block.proof[0];
+  // A kernel may prove what another one leaves open.
+  Proof proof = Proof::None;
+  for (const lanes::NamedKernel& kernel : lanes::availableKernels())
+  {
+    lanes::Block block;
+    kernel.kernel(scene.model(), state.data(), 1, nullptr, scratch, block);
+    const Proof other = block.proof[0];
+    if (proof != Proof::None && other != Proof::None && proof != other)
+      throw std::logic_error(kernel.instructions + std::string(": the kernels prove different verdicts"));
+    proof = other == Proof::None ? proof : other;
+  }
+  return proof;
 }
 }  // namespace
 
