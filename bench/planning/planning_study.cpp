@@ -18,7 +18,9 @@
 
 #include "benchmark/csv_table.h"
 #include "benchmark/statistics.h"
+#include "collision/checkers/cpu_scene.h"
 #include "collision/checkers/open_checker.h"
+#include "collision/filter/proofs/proof_worker.h"
 #include "command_line/command_line.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
@@ -39,6 +41,7 @@ struct Settings
 {
   std::string out;
   std::string device = "auto";
+  std::string planners;  // part of their names
   std::size_t problems = 0;
   std::size_t runs = 0;
   double seconds = 10.0;
@@ -129,6 +132,11 @@ class Study
   }
 
  private:
+  bool isChosen(Method method) const
+  {
+    return std::string(nameOf(method)).find(settings_.planners) != std::string::npos;
+  }
+
   void runProblem(const std::string& name, std::size_t number)
   {
     const PlanningProblem problem = loadPlanningProblem(name);
@@ -146,7 +154,9 @@ class Study
       ours_->setScene(problem.scene);
       exact_->setScene(problem.scene);
     }
-    const auto fcl = std::make_shared<FclChecker>(problem.scene, problem.group);
+    const auto fcl = isChosen(Method::RrtConnectFcl) ? std::make_shared<FclChecker>(problem.scene, problem.group)
+                                                     : std::shared_ptr<FclChecker>();
+    makeProofs(problem);
     // Keeps the one-time work for a scene out of the planning time.
     ours_->check(problem.start.data(), 1, problem.group);
     ours_->report(problem.group);
@@ -155,6 +165,8 @@ class Study
         for (std::size_t k = 0; k < std::size(kMethods); ++k)
         {
           const Method method = kMethods[(k + number) % std::size(kMethods)];
+          if (!isChosen(method))
+            continue;
           const std::shared_ptr<StateChecker> checker =
               method == Method::RrtConnectFcl ? std::static_pointer_cast<StateChecker>(fcl) : ours_;
           const Outcome outcome =
@@ -165,6 +177,18 @@ class Study
                       outcome.length, outcome.waypoints, static_cast<std::size_t>(outcome.states),
                       outcome.checked_again, outcome.colliding});
         }
+  }
+
+  /// A node makes the proofs of a robot after the first batches, and keeps them on disk.
+  void makeProofs(const PlanningProblem& problem)
+  {
+    std::vector<double> rows;
+    for (std::size_t i = 0; i < kStatesBeforeProofs; ++i)
+      rows.insert(rows.end(), problem.start.begin(), problem.start.end());
+    ours_->check(rows.data(), kStatesBeforeProofs, problem.group);
+    ours_->check(rows.data(), kStatesBeforeProofs, problem.group);
+    waitForProofs();
+    ours_->check(rows.data(), 64, problem.group);
   }
 
   Outcome plan(const PlanningProblem& problem, Method method, MotionRule rule,
@@ -257,6 +281,7 @@ void study(const CommandLine& arguments)
   settings.runs = arguments.count("--runs", 1, 1, kMax);
   settings.seconds = arguments.number("--seconds", settings.seconds, 1e-3, 1e6);
   settings.device = arguments.value("--device", settings.device);
+  settings.planners = arguments.value("--planners", settings.planners);
   makeTableFolder(settings.out);
   if (Study(settings).run())
     throw Error("a path that was accepted under the bound collides: see planning.csv");
@@ -279,6 +304,7 @@ int main(int argc, char** argv)
        {"--problems", "N", "number of problems, spread over all sets (default: all)"},
        {"--runs", "N", "runs of each problem with different seeds (default 1)"},
        {"--seconds", "S", "time limit of each plan (default 10)"},
+       {"--planners", "NAME", "only planners with this in their name, for example \"batch\" (default: all)"},
        {"--device", "D", "\"auto\" (a GPU, else llvmpipe), \"software\", an index, part of a renderer's name"}},
       benchmark::study};
   return runTool(tool, argc, argv);

@@ -8,8 +8,6 @@
 // vertices, and its growth would cost most of the checks, while the other one looks for its way out.
 // J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
 // Balanced trees: S. M. LaValle: Planning Algorithms. 2006, section 5.5.3.
-// Domains of vertices: L. Jaillet, A. Yershova, S. M. LaValle, T. Simeon: Adaptive tuning of the sampling domain for
-// dynamic-domain RRTs. IROS 2005.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -17,15 +15,13 @@ namespace
 // Keeps a round short for every range.
 constexpr std::size_t kMaxPieces = 64;
 
-// Of so many rounds, one grows the larger tree: the smaller one may be in a pocket that is easier to find from outside.
+// Every eighth round grows the larger tree: the smaller one may be in a pocket that is easier to find from outside.
 constexpr std::size_t kRoundsOfBothTrees = 8;
 
-// A vertex from which a branch has failed is at an obstacle. Most random states for which it is the nearest vertex are
-// beyond the obstacle, so its branches then go only to states within a distance: at first so many ranges, and a tenth
-// less or more after each failure or success. Of so many random states, one is taken in any case.
-constexpr double kDomain = 8.0;
-constexpr double kChangeOfDomain = 0.1;
-constexpr int kMostDraws = 30;
+// Vertices of the smaller tree per random branch of a round. The branches of a round grow independently of each other,
+// so in a small tree many of them would grow into the same region.
+constexpr std::size_t kVerticesPerBranch = 8;
+constexpr std::size_t kLeastBranches = 2;
 
 // Between two roots, a free straight line saves the most work. There are few of these lines, so each gets many segments
 // at once.
@@ -104,30 +100,24 @@ BidirectionalTree::Side BidirectionalTree::growingSide()
   return ++rounds_ % kRoundsOfBothTrees == 0 ? otherThan(smaller) : smaller;
 }
 
+std::size_t BidirectionalTree::branchesOfRound(std::size_t max_branches) const
+{
+  // The first round tries the straight motions between the roots.
+  if (rounds_ == 1)
+    return 0;
+  const std::size_t smaller = std::min(trees_[Start].size(), trees_[Goal].size());
+  return std::min(max_branches, std::max(kLeastBranches, smaller / kVerticesPerBranch));
+}
+
 BidirectionalTree::Attempt BidirectionalTree::randomBranch(Side side, double range)
 {
   ompl::base::State* state = scratch();
-  const Vertex* from = nullptr;
-  double distance = 0.0;
-  for (int draw = 0; draw == 0 || (draw < kMostDraws && distance > from->domain); ++draw)
-  {
-    sampler_->sampleUniform(state);
-    from = &trees_[side].nearest(state);
-    distance = information_->distance(from->state, state);
-  }
+  sampler_->sampleUniform(state);
+  const Vertex& from = trees_[side].nearest(state);
+  const double distance = information_->distance(from.state, state);
   if (distance > range)
-    information_->getStateSpace()->interpolate(from->state, state, range / distance, state);
-  return {{side, from, nullptr, 1}, {state}};
-}
-
-/// Adapts the domain of a vertex after a random branch from it.
-void BidirectionalTree::adaptDomain(Side side, const Vertex& from, bool is_valid, double range)
-{
-  const double change = is_valid ? 1.0 + kChangeOfDomain : 1.0 - kChangeOfDomain;
-  if (!is_valid && std::isinf(from.domain))
-    trees_[side].setDomain(from, kDomain * range);
-  else
-    trees_[side].setDomain(from, std::max(range, change * from.domain));
+    information_->getStateSpace()->interpolate(from.state, state, range / distance, state);
+  return {{side, &from, nullptr, 1}, {state}};
 }
 
 /// Adds the valid first motions of an attempt to the tree. Returns the last vertex; `done` gets the number of valid
@@ -141,7 +131,7 @@ const RrtTree::Vertex& BidirectionalTree::advance(const Attempt& attempt, const 
   return *tip;
 }
 
-std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionValidator& validator, std::size_t branches,
+std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionValidator& validator, std::size_t max_branches,
                                                                 double range,
                                                                 const ompl::base::PlannerTerminationCondition& ptc)
 {
@@ -150,7 +140,8 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
   std::vector<Attempt> attempts;
   for (const Connection& connection : connections_)
     attempts.push_back(pieces(connection, range));
-  for (std::size_t i = 0; i < branches; ++i)
+  const std::size_t branches = branchesOfRound(max_branches);
+  for (std::size_t i = 0; i < branches && !ptc; ++i)  // in a large tree, each search takes time
     attempts.push_back(randomBranch(side, range));
 
   // The motions get the direction that they will have in the path.
@@ -178,8 +169,6 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
     std::size_t done = 0;
     const Vertex& tip = advance(attempt, first, done);
     first += attempt.states.size();
-    if (!connection.to)
-      adaptDomain(side, *connection.from, done != 0, range);
     if (!connection.to && done != 0)
       connections_.push_back({otherThan(connection.side), nullptr, &tip, 1});
     if (!connection.to || done < attempt.states.size())

@@ -39,15 +39,18 @@ class BidirectionalTree
   /// Removes vertices, because the motions from their parents to them are not valid after all: see RrtTree::remove.
   void remove(Side side, const std::vector<const RrtTree::Vertex*>& vertices);
 
+  /// The motion from the parent of this vertex is valid by the validator's own rule.
+  void setProven(Side side, const RrtTree::Vertex& vertex) { trees_[side].setProven(vertex); }
+
   /// Adds a root. In the next round, the other tree grows towards it on a straight line.
   void addRoot(Side side, const ompl::base::State* state);
 
   /// Grows the trees by one round; the samples of all its motions are checked in one call. One tree, mostly the smaller
-  /// one, grows `branches` motions towards random states. Both trees also grow towards their targets, which are
+  /// one, grows motions towards random states: at most `max_branches`, and none in the first round. Both trees also grow towards their targets, which are
   /// vertices of the other tree. Each vertex of a new random branch becomes a target of the other tree, from the next
   /// round on. `range`: the longest motion, above 0. Returns the meetings of the trees. If `ptc` ends the round, the
   /// trees stay as they were, and there are no meetings.
-  std::vector<Meeting> grow(const MotionValidator& validator, std::size_t branches, double range,
+  std::vector<Meeting> grow(const MotionValidator& validator, std::size_t max_branches, double range,
                             const ompl::base::PlannerTerminationCondition& ptc);
 
  private:
@@ -70,9 +73,9 @@ class BidirectionalTree
   };
 
   Side growingSide();
+  std::size_t branchesOfRound(std::size_t max_branches) const;
   Attempt pieces(Connection connection, double range);
   Attempt randomBranch(Side side, double range);
-  void adaptDomain(Side side, const Vertex& from, bool is_valid, double range);
   const Vertex& advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done);
   ompl::base::State* scratch();
 

@@ -17,11 +17,6 @@ namespace
 namespace ob = ompl::base;
 using ompl::geometric::PathGeometric;
 
-// Vertices of the smaller tree per random branch of a round. The branches of a round grow independently of each other,
-// so in small trees many of them would grow into the same region.
-constexpr std::size_t kVerticesPerBranch = 8;
-constexpr std::size_t kLeastBranches = 2;
-
 /// The vertices from the root to `vertex`.
 std::vector<const RrtTree::Vertex*> branchTo(const RrtTree::Vertex* vertex)
 {
@@ -90,16 +85,20 @@ bool RrtSearch::isProven(const MotionValidator& validator, const BidirectionalTr
     return true;
   std::vector<MotionValidator::Motion> motions;
   std::vector<std::pair<BidirectionalTree::Side, const Vertex*>> ends;  // the later vertex of each motion within a tree
-  for (const Vertex* vertex = meeting.start; vertex->parent; vertex = vertex->parent)
+  const auto add = [&](BidirectionalTree::Side side, const Vertex* vertex)
   {
-    motions.emplace_back(vertex->parent->state, vertex->state);
-    ends.emplace_back(BidirectionalTree::Start, vertex);
-  }
-  for (const Vertex* vertex = meeting.goal; vertex && vertex->parent; vertex = vertex->parent)
-  {
-    motions.emplace_back(vertex->state, vertex->parent->state);
-    ends.emplace_back(BidirectionalTree::Goal, vertex);
-  }
+    for (; vertex && vertex->parent; vertex = vertex->parent)
+    {
+      if (vertex->proven)  // in an earlier candidate, another motion was invalid
+        continue;
+      const Vertex* const parent = vertex->parent;
+      motions.emplace_back(side == BidirectionalTree::Start ? parent->state : vertex->state,
+                           side == BidirectionalTree::Start ? vertex->state : parent->state);
+      ends.emplace_back(side, vertex);
+    }
+  };
+  add(BidirectionalTree::Start, meeting.start);
+  add(BidirectionalTree::Goal, meeting.goal);
   if (meeting.goal)
     motions.emplace_back(meeting.start->state, meeting.goal->state);
   const std::vector<std::uint8_t> valid = validator.validateMotions(motions, ptc);
@@ -107,8 +106,13 @@ bool RrtSearch::isProven(const MotionValidator& validator, const BidirectionalTr
     return std::find(valid.begin(), valid.end(), 0) == valid.end();
   std::array<std::vector<const Vertex*>, 2> invalid;  // by tree
   for (std::size_t i = 0; i < ends.size(); ++i)
-    if (valid[i] == 0)
-      invalid[ends[i].first].push_back(ends[i].second);
+  {
+    const auto& [side, vertex] = ends[i];
+    if (valid[i] != 0)
+      trees_.setProven(side, *vertex);
+    else
+      invalid[side].push_back(vertex);
+  }
   for (const BidirectionalTree::Side side : {BidirectionalTree::Start, BidirectionalTree::Goal})
     trees_.remove(side, invalid[side]);
   return std::find(valid.begin(), valid.end(), 0) == valid.end();
@@ -140,13 +144,8 @@ RrtSearch::Path RrtSearch::provenPath(const MotionValidator& validator, const ob
 RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
                                     std::size_t max_branches, double range, const ob::PlannerTerminationCondition& ptc)
 {
-  const std::size_t size =
-      std::min(trees_.tree(BidirectionalTree::Start).size(), trees_.tree(BidirectionalTree::Goal).size());
-  const std::size_t branches = std::min(max_branches, std::max(kLeastBranches, size / kVerticesPerBranch));
-  // The first round has no random branches: it tries the straight motions between the roots.
-  for (const BidirectionalTree::Meeting& meeting : trees_.grow(validator, is_first_round_ ? 0 : branches, range, ptc))
+  for (const BidirectionalTree::Meeting& meeting : trees_.grow(validator, max_branches, range, ptc))
     addCandidate(goal, meeting);
-  is_first_round_ = false;
   lookAtNewVertices(goal);
   return provenPath(validator, ptc);
 }

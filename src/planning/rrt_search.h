@@ -56,7 +56,6 @@ class RrtSearch
 
   ompl::base::SpaceInformationPtr information_;
   BidirectionalTree trees_;
-  bool is_first_round_ = true;
   std::vector<Candidate> candidates_;
   /// Meeting of the last solution. Its goal vertex is null if its start vertex is in the goal region.
   BidirectionalTree::Meeting meeting_{nullptr, nullptr};

@@ -29,7 +29,8 @@ RrtTree::~RrtTree()
 const RrtTree::Vertex& RrtTree::add(const ompl::base::State* state, const Vertex* parent)
 {
   vertices_.push_back(
-      std::make_unique<Vertex>(Vertex{information_->cloneState(state), parent, false, vertices_.size()}));
+      std::make_unique<Vertex>(Vertex{information_->cloneState(state), parent, false, false, vertices_.size()}));
+  ++size_;
   nearest_.add(state);
   vertex_of_.push_back(vertices_.back().get());
   return *vertices_.back();
@@ -39,8 +40,11 @@ void RrtTree::remove(const std::vector<const Vertex*>& vertices)
 {
   const std::unordered_set<const Vertex*> wanted(vertices.begin(), vertices.end());
   for (const std::unique_ptr<Vertex>& each : vertices_)
-    if (wanted.count(each.get()) != 0 || (each->parent && each->parent->removed))
+    if (!each->removed && (wanted.count(each.get()) != 0 || (each->parent && each->parent->removed)))
+    {
       each->removed = true;
+      --size_;
+    }
   is_stale_ = is_stale_ || !vertices.empty();
 }
 

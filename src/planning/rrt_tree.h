@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -21,8 +20,8 @@ class RrtTree
     ompl::base::State* state = nullptr;
     const Vertex* parent = nullptr;  // null: a root
     bool removed = false;
-    std::size_t number = 0;                                   // in vertices()
-    double domain = std::numeric_limits<double>::infinity();  // random branches go to states within this distance
+    bool proven = false;  // the motion from the parent is valid by the validator's own rule
+    std::size_t number = 0;  // in vertices()
 
     const Vertex& root() const;
   };
@@ -38,17 +37,19 @@ class RrtTree
   /// Removes these vertices, which must not be roots, and everything that grew from them: nearest() no longer returns
   /// them.
   void remove(const std::vector<const Vertex*>& vertices);
-  /// Sets Vertex::domain.
-  void setDomain(const Vertex& vertex, double domain) { vertices_[vertex.number]->domain = domain; }
+  /// Sets Vertex::proven.
+  void setProven(const Vertex& vertex) { vertices_[vertex.number]->proven = true; }
   /// The vertex nearest to the state. The tree must not be empty.
   const Vertex& nearest(const ompl::base::State* state);
   /// All vertices, removed ones included; parents come before children.
   const std::vector<std::unique_ptr<Vertex>>& vertices() const { return vertices_; }
-  std::size_t size() const { return vertices_.size(); }
+  /// The number of vertices that are not removed.
+  std::size_t size() const { return size_; }
 
  private:
   ompl::base::SpaceInformationPtr information_;
   std::vector<std::unique_ptr<Vertex>> vertices_;
+  std::size_t size_ = 0;
   NearestState nearest_;
   std::vector<const Vertex*> vertex_of_;  // of each state of nearest_
   bool is_stale_ = false;                 // nearest_ still has removed vertices; the next search removes them

@@ -144,15 +144,17 @@ void MotionBatch::checkSamples()
   }
 }
 
+/// The intervals around every second sample. They are twice as wide as the steps, because most of them can be proven to
+/// be free.
 std::vector<MotionBatch::Interval> MotionBatch::firstIntervals() const
 {
   std::vector<Interval> intervals;
   for (std::size_t i = 0; i < motions_.size(); ++i)
   {
     const Motion& motion = motions_[i];
-    for (std::size_t k = 0; k <= motion.segments; ++k)
+    for (std::size_t k = 1; k <= motion.segments; k += 2)
     {
-      const Interval interval{i, motion.fraction(k), 0.5 / static_cast<double>(motion.segments)};
+      const Interval interval{i, motion.fraction(k), 1.0 / static_cast<double>(motion.segments)};
       if (isWanted(interval))
         intervals.push_back(interval);
     }
@@ -174,7 +176,7 @@ std::vector<MotionBatch::Interval> MotionBatch::halves(const std::vector<Interva
       for (const double side : {-0.5, 0.5})
       {
         const Interval half{interval.motion, interval.middle + side * interval.half, 0.5 * interval.half};
-        // The first and the last sample represent intervals that lie half outside the motion.
+        // The last interval of a motion can lie half outside the motion.
         if (half.middle > 0.0 && half.middle < 1.0)
           result.push_back(half);
       }

@@ -217,34 +217,42 @@ class Nesting
   std::size_t steps_ = 0;
 };
 
-/// Triangles that share an edge alone belong to one shell. At an edge of more triangles, those shells are joined that
-/// do not run along it equally often in both directions.
+/// Triangles that share an edge alone belong to one shell. At an edge of more triangles, those shells of a cycle are
+/// joined that do not run along it equally often in both directions.
 std::vector<Shell> shellsOf(const std::vector<Vector3d>& points, const std::vector<Corners>& triangles,
-                            const std::vector<EdgeUse>& uses)
+                            const std::vector<EdgeUse>& uses, const std::vector<std::uint32_t>& cycles)
 {
   DisjointSets sets = patchSets(uses, triangles.size());
   std::vector<std::pair<std::uint32_t, std::uint32_t>> joined;
-  std::vector<std::pair<std::uint32_t, int>> sums;
+  struct Share
+  {
+    std::uint32_t cycle;
+    std::uint32_t set;
+    int direction;
+  };
+  std::vector<Share> shares;
   visitEdges(uses,
              [&](auto first, auto last)
              {
                if (last - first == 2)
                  return;
-               sums.clear();
+               shares.clear();
                for (auto use = first; use != last; ++use)
-                 sums.emplace_back(sets.find(use->triangle), use->upwards ? 1 : -1);
-               std::sort(sums.begin(), sums.end());
-               std::optional<std::uint32_t> open;
-               for (auto begin = sums.begin(); begin != sums.end();)
+                 shares.push_back({cycles[use->triangle], sets.find(use->triangle), use->upwards ? 1 : -1});
+               std::sort(shares.begin(), shares.end(),
+                         [](const Share& a, const Share& b)
+                         { return std::pair(a.cycle, a.set) < std::pair(b.cycle, b.set); });
+               std::optional<Share> open;
+               for (auto begin = shares.begin(); begin != shares.end();)
                {
                  int sum = 0;
                  auto end = begin;
-                 for (; end != sums.end() && end->first == begin->first; ++end)
-                   sum += end->second;
-                 if (sum != 0 && open)
-                   joined.emplace_back(*open, begin->first);
+                 for (; end != shares.end() && end->set == begin->set; ++end)
+                   sum += end->direction;
+                 if (sum != 0 && open && open->cycle == begin->cycle)
+                   joined.emplace_back(open->set, begin->set);
                  if (sum != 0)
-                   open = begin->first;
+                   open = *begin;
                  begin = end;
                }
              });
@@ -280,9 +288,9 @@ std::vector<Shell> shellsOf(const std::vector<Vector3d>& points, const std::vect
 }  // namespace
 
 std::vector<std::uint32_t> trianglesToTurn(const std::vector<Vector3d>& points, const std::vector<Corners>& triangles,
-                                           const std::vector<EdgeUse>& uses)
+                                           const std::vector<EdgeUse>& uses, const std::vector<std::uint32_t>& cycles)
 {
-  std::vector<Shell> shells = shellsOf(points, triangles, uses);
+  std::vector<Shell> shells = shellsOf(points, triangles, uses, cycles);
   const auto is_negative = [](const Shell& shell) { return shell.volume < 0.0; };
   const auto negative = std::count_if(shells.begin(), shells.end(), is_negative);
   if (negative == 0 || negative == static_cast<std::ptrdiff_t>(shells.size()))

@@ -160,10 +160,12 @@ void addSurface(const Places& places, const std::vector<Corners>& triangles, con
   solid.parts.other.push_back(part);
 }
 
-/// Closes the triangles with the numbers `open`.
-void closeOpenParts(const std::vector<Corners>& triangles, const Places& places, double diagonal,
-                    std::vector<std::uint32_t> open, SolidMesh& solid)
+/// Closes the triangles with the numbers `open`. Returns the cycle of each triangle, see ClosedSurface.
+std::vector<std::uint32_t> closeOpenParts(const std::vector<Corners>& triangles, const Places& places, double diagonal,
+                                          std::vector<std::uint32_t> open, SolidMesh& solid)
 {
+  std::vector<std::uint32_t> cycles(triangles.size(), 0);
+  std::uint32_t first_cycle = 0;  // less 1, of an attempt
   ChangedMesh mesh(solid.mesh, places);
   const std::vector<Closing> closings = attempts(diagonal, solid.mesh->solid);
   for (const Closing& closing : closings)
@@ -181,16 +183,20 @@ void closeOpenParts(const std::vector<Corners>& triangles, const Places& places,
       {
         mesh.turn(open[i], surface.triangles[i]);
         solid.roles[open[i]] = surface.roles[i];
+        cycles[open[i]] = first_cycle + surface.cycles[i];
       }
       else
       {
         mesh.add(surface.triangles[i]);
         solid.roles.push_back(surface.roles[i]);
+        cycles.push_back(first_cycle + surface.cycles[i]);
       }
     }
+    first_cycle = std::max(first_cycle, *std::max_element(cycles.begin(), cycles.end()));
     for (const MeshPart& part_found : surface.parts)
       if (part_found.kind != PartKind::Surface || is_last)
         solid.parts.other.push_back(part_found);
+    solid.parts.other.insert(solid.parts.other.end(), surface.uncertain.begin(), surface.uncertain.end());
     std::vector<std::uint32_t> left;
     for (const std::uint32_t t : surface.open)
       left.push_back(open[t]);
@@ -201,6 +207,7 @@ void closeOpenParts(const std::vector<Corners>& triangles, const Places& places,
       addSurface(places, triangles, open, solid);
   }
   solid.mesh = mesh.get();
+  return cycles;
 }
 
 void addComponents(SolidMesh& solid, const std::vector<Corners>& triangles, std::size_t places)
@@ -220,7 +227,8 @@ void addComponents(SolidMesh& solid, const std::vector<Corners>& triangles, std:
 /// Turns the shells that would cancel others. `uses` are those of all triangles, of which `closed` tells whether their
 /// component is closed as it is in the file.
 void turnShells(const Places& places, const std::vector<Corners>& original, const TriangleComponents& components,
-                const std::vector<bool>& closed, const std::vector<EdgeUse>& uses, SolidMesh& solid)
+                const std::vector<bool>& closed, const std::vector<EdgeUse>& uses,
+                const std::vector<std::uint32_t>& cycles, SolidMesh& solid)
 {
   // A closed component shares no edge with other triangles. So the edges of the others suffice, if they were changed.
   const std::vector<Corners> all = cornersOf(*solid.mesh, places);
@@ -241,7 +249,7 @@ void turnShells(const Places& places, const std::vector<Corners>& original, cons
     use.triangle = numbers[use.triangle];
     counted_uses.push_back(use);
   }
-  const std::vector<std::uint32_t> turned = trianglesToTurn(places.points, all, counted_uses);
+  const std::vector<std::uint32_t> turned = trianglesToTurn(places.points, all, counted_uses, cycles);
   if (turned.empty())
     return;
   ChangedMesh mesh(solid.mesh, places);
@@ -287,9 +295,10 @@ SolidMesh makeSolidMesh(const std::shared_ptr<const Mesh>& mesh)
       else if (hasDistinctCorners(triangles[t]))
         solid.roles[t] = TriangleRole::Winding;
     }
-    if (!open.empty())
-      closeOpenParts(triangles, places, bounds.diagonal().norm(), std::move(open), solid);
-    turnShells(places, triangles, components, closed, uses, solid);
+    const std::vector<std::uint32_t> cycles =
+        open.empty() ? std::vector<std::uint32_t>(triangles.size(), 0)
+                     : closeOpenParts(triangles, places, bounds.diagonal().norm(), std::move(open), solid);
+    turnShells(places, triangles, components, closed, uses, cycles, solid);
   }
   else
   {

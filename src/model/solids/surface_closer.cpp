@@ -1,6 +1,8 @@
 #include "model/solids/surface_closer.h"
+#include <cstdio>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <limits>
@@ -11,8 +13,10 @@
 #include "model/solids/closed_core.h"
 #include "model/solids/disjoint_sets.h"
 #include "model/solids/free_rims.h"
+#include "model/solids/hidden_chamber.h"
 #include "model/solids/hole_filling.h"
 #include "model/solids/orientation.h"
+#include "model/solids/outer_shell.h"
 #include "model/solids/seams.h"
 
 // A surface without signed boundary is a cycle; it bounds the points around which its winding number is not 0. A cycle
@@ -57,6 +61,13 @@ std::vector<Corners> withoutCopies(const std::vector<Corners>& triangles)
   return once;
 }
 
+/// Whether two triangles with the same corners have the same front.
+bool haveSameDirection(const Corners& a, const Corners& b)
+{
+  const auto first = static_cast<std::size_t>(std::find(b.begin(), b.end(), a[0]) - b.begin());
+  return b[(first + 1) % 3] == a[1];
+}
+
 class SurfaceCloser
 {
  public:
@@ -65,6 +76,7 @@ class SurfaceCloser
   {
     result_.triangles = std::move(triangles);
     result_.roles.assign(input_count_, TriangleRole::Surface);
+    result_.cycles.assign(input_count_, 0);
     weldCorners(closing.tolerance, closing.welded);
     countCopies();
     addSeams(closing.tolerance);
@@ -147,6 +159,7 @@ class SurfaceCloser
     const auto number = static_cast<std::uint32_t>(result_.triangles.size());
     result_.triangles.push_back(triangle);
     result_.roles.push_back(role);
+    result_.cycles.push_back(0);
     welded_.push_back(triangle);
     copies_.push_back({number});
     return number;
@@ -197,6 +210,8 @@ class SurfaceCloser
   void closePart(const Numbers& part, const std::vector<FilledHole>& filled = {})
   {
     const OrientedSurface once = orient(points_, cornersOf(part));
+    if (!hasSimpleEdges(part) && closeChambers(part, once, filled))
+      return;
     // Two volumes with a common wall have it twice. Without the wall they are one volume.
     Numbers without_walls;
     std::copy_if(part.begin(), part.end(), std::back_inserter(without_walls),
@@ -205,7 +220,7 @@ class SurfaceCloser
     const OrientedSurface outer = has_walls ? orient(points_, cornersOf(without_walls)) : OrientedSurface();
     const bool is_closed = once.boundary.empty() || once.even;
     const bool is_outer_closed = has_walls && (outer.boundary.empty() || outer.even);
-    if (!is_closed && !is_outer_closed && closeCore(part, once, filled))
+    if (!is_closed && !is_outer_closed && closeCore(part, largestCore(part), once, filled))
       return;
     if (once.boundary.empty() || (is_closed && !(is_outer_closed && outer.boundary.empty())))
       return accept(completed(part, once), part, filled);
@@ -221,27 +236,125 @@ class SurfaceCloser
     accept(cycle, part, filled);
   }
 
-  /// Closes the part's largest closed surface, and separately what has free edges beside it, for example a fin. If the
-  /// free edges are the rims of small holes, these are filled first. Returns false if the part has no closed surface,
-  /// or if an attempt that fills holes may give a larger one.
-  bool closeCore(const Numbers& part, const OrientedSurface& once, const std::vector<FilledHole>& filled)
+  /// Whether each edge has at most two triangles, and no triangle has a copy.
+  bool hasSimpleEdges(const Numbers& part) const
+  {
+    bool is_simple = std::all_of(
+        part.begin(), part.end(), [this](std::uint32_t t) { return copies_[t].size() == 1; });
+    visitEdges(edgeUses(cornersOf(part)), [&](auto first, auto last) { is_simple = is_simple && last - first <= 2; });
+    return is_simple;
+  }
+
+  /// A closed surface in a part.
+  struct Core
+  {
+    Numbers members = {};
+    std::vector<Corners> turned = {};  // the members' welded corners
+    Numbers with_walls = {};           // the members and what they enclose
+    Numbers rest = {};
+    std::size_t hidden = 0;  // see hiddenChambers
+    bool is_uncertain = false;
+  };
+
+  /// Closes a part with edges of more than two triangles: as it is in the file, or else everything that it encloses.
+  /// The choice is the surface with the fewest hidden chambers; if there are any, the part is named. Returns false if
+  /// nothing is enclosed, or if an attempt that fills holes may close more.
+  bool closeChambers(const Numbers& part, const OrientedSurface& once, const std::vector<FilledHole>& filled)
+  {
+    Core best = coreOfFile(part);
+    const bool is_of_file = !best.members.empty();
+    const auto offer = [&](Core core)
+    {
+      if (!core.members.empty() && (best.members.empty() || core.hidden < best.hidden))
+        best = std::move(core);
+    };
+    for (const SheetOrder order : {SheetOrder::FirstBehind, SheetOrder::FirstInFront})
+      if (best.members.empty() || best.hidden != 0)
+        offer(outerShellOf(part, order));
+    if (best.hidden != 0 && !is_of_file)
+      offer(largestCore(part));
+    if (getenv("DBG"))
+      fprintf(stderr, "part %zu filled %zu fills %d file %d best members %zu rest %zu hidden %zu\n", part.size(),
+              filled.size(), closing_.fills_holes, is_of_file, best.members.size(), best.rest.size(), best.hidden);
+    best.is_uncertain =
+        best.hidden != 0 && !is_of_file && hiddenChambers(points_, cornersOf(best.with_walls), best.turned) != 0;
+    return closeCore(part, best, once, filled);
+  }
+
+  void setHidden(const Numbers& part, Core& core) const
+  {
+    if (!core.members.empty())
+      core.hidden = hiddenChambers(points_, cornersOf(part), core.turned);
+  }
+
+  /// The part as it is in the file, if it has no signed boundary. Pairs of a triangle and its back side are left out:
+  /// between two bodies, they are a wall.
+  Core coreOfFile(const Numbers& part) const
+  {
+    Core core;
+    for (const std::uint32_t t : part)
+    {
+      std::array<Numbers, 2> sides;
+      for (const std::uint32_t copy : copies_[t])
+        sides[haveSameDirection(welded_[t], welded_[copy]) ? 0 : 1].push_back(copy);
+      const std::size_t pairs = std::min(sides[0].size(), sides[1].size());
+      for (const Numbers& side : sides)
+        core.members.insert(core.members.end(), side.begin() + static_cast<std::ptrdiff_t>(pairs), side.end());
+    }
+    core.turned = cornersOf(core.members);
+    if (!signedBoundary(core.turned).empty())
+      return {};
+    core.with_walls = part;
+    setHidden(part, core);
+    return core;
+  }
+
+  Core outerShellOf(const Numbers& part, SheetOrder order) const
   {
     const std::vector<Corners> corners = cornersOf(part);
-    const std::vector<CorePlace> places = closedCore(points_, corners);
-    Numbers core;
-    Numbers core_and_walls;
-    Numbers rest;
-    double area = 0.0;
-    double rest_area = 0.0;
+    const OuterShell shell = outerShell(points_, corners, order);
+    Core core;
+    for (std::size_t i = 0; i < part.size(); ++i)
+    {
+      const ShellPlace place = shell.places[i];
+      (place == ShellPlace::Beside ? core.rest : core.with_walls).push_back(part[i]);
+      if (place != ShellPlace::Shell)
+        continue;
+      core.members.push_back(part[i]);
+      core.turned.push_back(corners[i]);
+      if (shell.turned[i])
+        std::swap(core.turned.back()[1], core.turned.back()[2]);
+    }
+    setHidden(part, core);
+    return core;
+  }
+
+  /// The part's largest surface that has an even number of triangles at each edge. This surface may cross itself.
+  Core largestCore(const Numbers& part) const
+  {
+    const std::vector<CorePlace> places = closedCore(points_, cornersOf(part));
+    Core core;
     for (std::size_t i = 0; i < part.size(); ++i)
     {
       if (places[i] == CorePlace::Core)
-        core.push_back(part[i]);
-      (places[i] == CorePlace::Beside ? rest : core_and_walls).push_back(part[i]);
-      area += areaOf(points_, corners[i]);
-      rest_area += places[i] == CorePlace::Beside ? areaOf(points_, corners[i]) : 0.0;
+        core.members.push_back(part[i]);
+      (places[i] == CorePlace::Beside ? core.rest : core.with_walls).push_back(part[i]);
     }
-    if (filled.empty() && !rest.empty() && (!core.empty() || closing_.fills_holes))
+    const OrientedSurface surface = orient(points_, cornersOf(core.members));
+    core.turned = surface.triangles;
+    setHidden(part, core);
+    return core;
+  }
+
+  /// Closes a surface in a part, and separately what is beside it, for example a fin. If the free edges of the part are
+  /// the rims of small holes, these are filled first. Returns false if there is no such surface, or if an attempt that
+  /// fills holes may close more.
+  bool closeCore(const Numbers& part, const Core& core, const OrientedSurface& once,
+                 const std::vector<FilledHole>& filled)
+  {
+    const double area = areaOf(part);
+    const double rest_area = areaOf(core.rest);
+    if (filled.empty() && !core.rest.empty() && (!core.members.empty() || closing_.fills_holes))
     {
       const std::vector<BoundaryEdge> rims = freeRims(points_, once.triangles);
       // A surface without other boundary is filled as a whole.
@@ -255,16 +368,47 @@ class SurfaceCloser
       {
         if (!closing_.fills_holes)
           return false;
+        if (getenv("DBG"))
+          for (auto& h : holes)
+            fprintf(stderr, "hole rim %zu triangles %zu area %g\n", h.rim.size(), h.triangles.size(), h.area);
         closePart(withHoles(part, holes), holes);
         return true;
       }
     }
-    if (core.empty())
+    if (core.members.empty())
       return false;
-    accept(completed(core, orient(points_, cornersOf(core))), core_and_walls, filled);
-    for (const Numbers& other : partsOf(rest))
+    accept(completed(core.members, surfaceOf(core.turned)), core.with_walls, filled);
+    if (core.is_uncertain)
+      nameUncertain(core.with_walls);
+    for (const Numbers& other : partsOf(core.rest))
       closePart(other);
     return true;
+  }
+
+  static OrientedSurface surfaceOf(const std::vector<Corners>& triangles)
+  {
+    OrientedSurface surface;
+    surface.triangles = triangles;
+    surface.boundary = signedBoundary(triangles);
+    visitEdges(edgeUses(triangles),
+               [&](auto first, auto last) { surface.even = surface.even && (last - first) % 2 == 0; });
+    return surface;
+  }
+
+  /// Names a part whose inside may be larger than what counts as inside.
+  void nameUncertain(const Numbers& part)
+  {
+    report(part, PartKind::Surface, {});
+    result_.uncertain.push_back(result_.parts.back());
+    result_.parts.pop_back();
+  }
+
+  double areaOf(const Numbers& numbers) const
+  {
+    double area = 0.0;
+    for (const std::uint32_t t : numbers)
+      area += core::areaOf(points_, welded_[t]);
+    return area;
   }
 
   /// Fillings become triangles like those of the input, at the end of the list.
@@ -297,14 +441,14 @@ class SurfaceCloser
       if (cycle.turned[i] != welded_[members[i]])
         std::swap(corners[1], corners[2]);
       cycle.chain.push_back(corners);
-      (members[i] < input_count_ ? area : added_area) += areaOf(points_, corners);
+      (members[i] < input_count_ ? area : added_area) += core::areaOf(points_, corners);
     }
     for (const FilledHole& hole : cycle.holes)
       cycle.chain.insert(cycle.chain.end(), hole.triangles.begin(), hole.triangles.end());
     for (const Corners& triangle : connections(cycle))
       cycle.chain.push_back(triangle);
     for (std::size_t i = members.size(); i < cycle.chain.size(); ++i)
-      added_area += areaOf(points_, cycle.chain[i]);
+      added_area += core::areaOf(points_, cycle.chain[i]);
     cycle.share = area > 0.0 ? added_area / area : 1.0;
     return cycle;
   }
@@ -346,14 +490,14 @@ class SurfaceCloser
       report(part, PartKind::Surface, cycle);
       return;
     }
+    ++cycle_count_;
     for (std::size_t i = 0; i < cycle.chain.size(); ++i)
-      if (i < cycle.members.size())
-      {
-        result_.triangles[cycle.members[i]] = cycle.chain[i];
-        result_.roles[cycle.members[i]] = cycle.role;
-      }
-      else
-        addTriangle(cycle.chain[i], cycle.role);
+    {
+      const std::uint32_t t = i < cycle.members.size() ? cycle.members[i] : addTriangle(cycle.chain[i], cycle.role);
+      result_.triangles[t] = cycle.chain[i];
+      result_.roles[t] = cycle.role;
+      result_.cycles[t] = cycle_count_;
+    }
     report(part, cycle.holes.empty() ? PartKind::Mended : PartKind::Filled, cycle);
   }
 
@@ -387,6 +531,7 @@ class SurfaceCloser
   std::vector<Numbers> copies_;  // for the first of equal triangles: all of them
   Numbers collapsed_;            // triangles whose corners were welded to one another
   Numbers unique_;               // the first of each set of equal triangles
+  std::uint32_t cycle_count_ = 0;
   ClosedSurface result_;
 };
 }  // namespace

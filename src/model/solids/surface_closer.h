@@ -15,8 +15,10 @@ struct ClosedSurface
 {
   std::vector<Corners> triangles;  ///< those of the input in their order, some of them turned; then the added ones
   std::vector<TriangleRole> roles;
-  std::vector<MeshPart> parts;      ///< none is Closed
-  std::vector<std::uint32_t> open;  ///< the numbers of the input's triangles in parts of the kind Surface
+  std::vector<std::uint32_t> cycles;  ///< numbers from 1; the triangles of one have no boundary; 0: in none
+  std::vector<MeshPart> parts;        ///< none is Closed
+  std::vector<MeshPart> uncertain;    ///< of these closed parts, more may be inside than what counts as inside
+  std::vector<std::uint32_t> open;    ///< the numbers of the input's triangles in parts of the kind Surface
 };
 
 /// Triangles are in one part if a chain of these connects them.
