@@ -23,19 +23,21 @@ constexpr std::size_t kFirstBatch = 1024;  // states
 // Requests of at most this many states are answered by the second thread if they have waited for kPatience.
 constexpr std::size_t kFewStates = 16;
 constexpr std::chrono::milliseconds kPatience{10};
-// After a batch has taken so long, the checker of the second thread is made, although no request waits yet: the trees
+// When a batch takes longer than this, the second thread prepares its checker, although no request waits yet: the trees
 // of a large robot take long.
 constexpr std::chrono::milliseconds kSlowBatch{50};
-constexpr std::chrono::seconds kReliefRest{1};  // after the checker could not be made
+// After the checker could not be made; doubled each time, up to the second number.
+constexpr std::chrono::seconds kFirstRest{1};
+constexpr std::chrono::seconds kLongestRest{60};
 
 using Clock = std::chrono::steady_clock;
 constexpr Clock::time_point kNever = Clock::time_point::max();
 
-/// Whether the second thread may answer a request. Motions need an unknown number of checks, and a report belongs to
-/// the checker of the other states.
-bool hasFewStates(const CheckJob& job, std::size_t count)
+/// Whether the second thread may answer a request. Motions need an unknown number of checks, a report belongs to the
+/// checker of the other states, and a checker may need much time to take over another scene or matrix.
+bool suitsRelief(const CheckJob& job, std::size_t count)
 {
-  return count <= kFewStates && !job.motions && !job.report;
+  return count <= kFewStates && !job.motions && !job.report && !job.scene && !job.matrix;
 }
 
 std::exception_ptr shuttingDown()
@@ -180,15 +182,17 @@ void CheckQueue::run()
     answer(batch, worker_);
 }
 
-/// The second thread. While the first thread is fast, no request waits for so long.
+/// The second thread. It takes no request before its checker is ready for the newest scene: until then, the first
+/// thread may answer the request sooner.
 void CheckQueue::relieve()
 {
   Clock::time_point rest;
+  std::chrono::seconds next_rest = kFirstRest;
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stopping_)
   {
     const auto first = std::find_if(waiting_.begin(), waiting_.end(),
-                                    [](const Request& request) { return hasFewStates(request.job, request.count); });
+                                    [](const Request& request) { return suitsRelief(request.job, request.count); });
     Clock::time_point due = kNever;
     if (first != waiting_.end())
       due = first->submitted + kPatience;
@@ -199,49 +203,55 @@ void CheckQueue::relieve()
       wake_.wait(lock);
     else if (Clock::now() < due)
       wake_.wait_until(lock, due);
-    else if (!answerByRelief(first, lock))
-      rest = Clock::now() + kReliefRest;
+    else if (first != waiting_.end() && isReliefReady())
+      answerByRelief(first, lock);
+    else if (prepareRelief(lock))
+      next_rest = kFirstRest;
+    else
+    {
+      rest = Clock::now() + next_rest;
+      next_rest = std::min(2 * next_rest, kLongestRest);
+    }
   }
 }
 
-/// Answers a request of few states and those that can be merged with it. Without a request (the end of the queue), only
-/// makes the checker. Returns false if there is no checker: the first thread then answers the requests, or says what is
-/// wrong with the scene. The caller holds the lock.
-bool CheckQueue::answerByRelief(Batch::iterator first, std::unique_lock<std::mutex>& lock)
+/// Whether the second thread's checker has the newest scene. The caller holds the lock.
+bool CheckQueue::isReliefReady() const
 {
-  Batch batch = first == waiting_.end() ? Batch() : take(first, kFewStates);
+  return is_relief_ready_ && store_.snapshot().scene == relief_.checked;
+}
+
+/// Gives the second thread's checker the newest scene. A check of one state makes everything that a check needs. Returns
+/// false if there is no checker: the first thread then answers the requests, or says what is wrong with the scene. The
+/// caller holds the lock.
+bool CheckQueue::prepareRelief(std::unique_lock<std::mutex>& lock)
+{
   lock.unlock();
   bool is_ready = false;
   try
   {
-    const Snapshot now = takeScene(batch.empty() ? CheckJob() : batch.front().job, relief_);
+    takeScene({}, relief_);
+    const std::vector<double> state(width_, 0.0);
+    relief_.checker->check(state.data(), 1, "");
     is_ready = true;
-    if (!batch.empty())
-      answer(batch, relief_, &now);
-    batch.clear();  // perhaps the last owner of a scene, which must not be destroyed under the lock
   }
-  catch (const std::exception&)
+  catch (...)
   {
-    // Only takeScene throws.
+    // The first thread reports the error to those who ask.
   }
   lock.lock();
   is_relief_ready_ = is_ready;
-  giveBack(batch);
   return is_ready;
 }
 
-/// Puts requests at the beginning of the queue again. The caller holds the lock.
-void CheckQueue::giveBack(Batch& batch)
+/// Answers a request of few states and those that can be merged with it. The caller holds the lock.
+void CheckQueue::answerByRelief(Batch::iterator first, std::unique_lock<std::mutex>& lock)
 {
-  for (Request& request : batch)
-    if (stopping_)
-      request.answer.set_exception(shuttingDown());
-    else
-      waiting_states_ += request.count;
-  if (stopping_ || batch.empty())
-    return;
-  waiting_.insert(waiting_.begin(), std::make_move_iterator(batch.begin()), std::make_move_iterator(batch.end()));
-  wake_.notify_all();
+  Batch batch = take(first, kFewStates);
+  lock.unlock();
+  answer(batch, relief_);
+  batch.clear();  // perhaps the last owner of a scene, which must not be destroyed under the lock
+  lock.lock();
 }
 
 /// Takes the oldest queued request and all requests that can be merged with it. Empty: the queue stops.
@@ -281,8 +291,7 @@ CheckQueue::Batch CheckQueue::take(Batch::iterator from, std::size_t max_states)
 }
 
 /// If a merged batch fails, each of its requests is checked alone, so that only the wrong requests get an error.
-/// `taken`: what takeScene returned for the batch; null: it was not called.
-void CheckQueue::answer(Batch& batch, Worker& worker, const Snapshot* taken)
+void CheckQueue::answer(Batch& batch, Worker& worker)
 {
   try
   {
@@ -292,7 +301,7 @@ void CheckQueue::answer(Batch& batch, Worker& worker, const Snapshot* taken)
     CheckAnswer whole;
     try
     {
-      whole = check(batch, count, worker, taken);
+      whole = check(batch, count, worker);
     }
     catch (...)
     {
@@ -302,7 +311,7 @@ void CheckQueue::answer(Batch& batch, Worker& worker, const Snapshot* taken)
       {
         Batch alone;
         alone.push_back(std::move(request));
-        answer(alone, worker, taken);
+        answer(alone, worker);
       }
       return;
     }
@@ -326,10 +335,10 @@ void CheckQueue::answer(Batch& batch, Worker& worker, const Snapshot* taken)
   }
 }
 
-CheckAnswer CheckQueue::check(Batch& batch, std::size_t count, Worker& worker, const Snapshot* taken)
+CheckAnswer CheckQueue::check(Batch& batch, std::size_t count, Worker& worker)
 {
   const CheckJob& job = batch.front().job;
-  const Snapshot now = taken ? *taken : takeScene(job, worker);
+  const Snapshot now = takeScene(job, worker);
   std::vector<double> states = statesOf(batch, now);
   CheckAnswer answer;
   answer.scene = now.scene;

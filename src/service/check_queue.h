@@ -51,12 +51,13 @@ class CheckQueue
 
   void run();
   void relieve();
-  bool answerByRelief(Batch::iterator first, std::unique_lock<std::mutex>& lock);
-  void giveBack(Batch& batch);
+  bool isReliefReady() const;
+  bool prepareRelief(std::unique_lock<std::mutex>& lock);
+  void answerByRelief(Batch::iterator first, std::unique_lock<std::mutex>& lock);
   Batch nextBatch();
   Batch take(Batch::iterator first, std::size_t max_states);
-  void answer(Batch& batch, Worker& worker, const Snapshot* taken = nullptr);
-  CheckAnswer check(Batch& batch, std::size_t count, Worker& worker, const Snapshot* taken);
+  void answer(Batch& batch, Worker& worker);
+  CheckAnswer check(Batch& batch, std::size_t count, Worker& worker);
   BatchResult checkStates(const std::vector<double>& states, std::size_t count, const std::string& group,
                           Worker& worker);
   void checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer, Worker& worker);

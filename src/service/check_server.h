@@ -91,7 +91,7 @@ class CheckServer
   /// Makes the checker of the small requests immediately, and throws the errors of `make_checker`. The checker of the
   /// large requests is made when it is first needed. A checker that refuses a scene is dropped, and another one is made
   /// for the next batch. `store` must outlive the server. `make_relief` makes the checker for requests of few states
-  /// that would wait for a slow batch, when it is first needed; null: they wait.
+  /// that would wait for a slow batch, when a batch takes long for the first time; null: they wait.
   CheckServer(const SceneStore& store, const MakeChecker& make_checker, const CheckServerOptions& options,
               const MakeChecker& make_relief = nullptr);
   /// Calls stop().

@@ -454,6 +454,33 @@ TEST_F(Server, TheReliefIsReadyBeforeARequestWaitsBesideASlowBatch)
   EXPECT_EQ(kSmall, slow.get().result.valid.size());
 }
 
+TEST_F(Server, TheFirstThreadAnswersWhileTheReliefIsMade)
+{
+  std::promise<void> begun;
+  std::promise<void> may_end;
+  Gate open_gate;
+  CheckServer relieved(
+      store,
+      [this](std::shared_ptr<const PlanningScene> scene)
+      { return std::make_shared<GatedChecker>(std::move(scene), gate); },
+      options(),
+      [&](std::shared_ptr<const PlanningScene> scene)
+      {
+        begun.set_value();
+        may_end.get_future().wait();
+        return std::make_shared<GatedChecker>(std::move(scene), open_gate);
+      });
+  gate.close();
+  std::future<CheckAnswer> slow = relieved.submit(job(kSmall));
+  gate.waitForChecks(1);
+  std::future<CheckAnswer> waiting = relieved.submit(job(1));
+  begun.get_future().wait();
+  gate.open();
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), waiting.get().result.valid) << "the relief holds the request";
+  EXPECT_EQ(kSmall, slow.get().result.valid.size());
+  may_end.set_value();
+}
+
 TEST_F(Server, WithoutAReliefTheFirstThreadAnswers)
 {
   std::atomic<int> attempts{0};
