@@ -20,8 +20,8 @@ struct JointLimitsEntry
 /// "; did you mean 'joint_limits'?" if the key at the top of a planning file is a misspelt joint_limits; else empty.
 std::string misspeltJointLimits(const std::string& key);
 
-/// "; did you mean 'max_position'?" if the key of an entry is a misspelt name of a position limit; else empty. Other
-/// keys are those of limits that change no position.
+/// "; did you mean 'max_position'?" if the key of an entry is a misspelt or another name of a position limit; else
+/// empty. Other keys are those of limits that change no position.
 std::string misspeltPositionLimit(const std::string& key);
 
 /// The position limits of an entry; no value if it has none. MoveIt does not read has_position_limits. `warnings` (may

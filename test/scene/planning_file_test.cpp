@@ -56,6 +56,13 @@ TEST(PlanningFile, WithAMisspeltLimitIsRefused)
 {
   EXPECT_EQ("limits.yaml:1: unknown key 'joint_limit'; did you mean 'joint_limits'?",
             faultOf("joint_limit: {elbow: {max_position: 1}}"));
+  for (const char* key : {"max_pos", "max", "upper", "position_max", "upper_limit"})
+    EXPECT_EQ("limits.yaml:1: 'elbow': unknown key '" + std::string(key) +
+                  "'; the limits of a position are min_position and max_position",
+              faultOf("joint_limits: {elbow: {" + std::string(key) + ": 1}, wrist: {max_position: 1}}"));
+  EXPECT_EQ("", faultOf("joint_limits: {elbow: {max_position: 1, has_soft_limits: true, soft_upper_limit: 1, "
+                        "soft_lower_limit: 0, k_position: 20, k_velocity: 10, angle_wraparound: false}}"));
+  EXPECT_NE("", faultOf("{joint_limits: {elbow: {max_position: 1}}, joints: {wrist: {max_position: 0.1}}}"));
   EXPECT_EQ("limits.yaml:1: 'elbow': unknown key 'max_positon'; did you mean 'max_position'?",
             faultOf("joint_limits: {elbow: {max_positon: 1}}"));
   EXPECT_EQ("limits.yaml:1: 'elbow': unknown key 'has_position_limit'; did you mean 'has_position_limits'?",

@@ -54,6 +54,8 @@ class PositionLimitsReader
       else if (inner == "min_position" || inner == "max_position")
         member.fail("'" + key + "' has a position limit and is not in joint_limits; write joint_limits: {" + key +
                     ": {" + inner + ": ...}}");
+      else
+        requireNoLimits(inner, member);
   }
 
   /// The members are limits of the variable, or entries of the variables of a joint that has several.
