@@ -1,5 +1,4 @@
 #include "model/solids/surface_closer.h"
-#include <cstdio>
 
 #include <algorithm>
 #include <array>
@@ -273,9 +272,6 @@ class SurfaceCloser
         offer(outerShellOf(part, order));
     if (best.hidden != 0 && !is_of_file)
       offer(largestCore(part));
-    if (getenv("DBG"))
-      fprintf(stderr, "part %zu filled %zu fills %d file %d best members %zu rest %zu hidden %zu\n", part.size(),
-              filled.size(), closing_.fills_holes, is_of_file, best.members.size(), best.rest.size(), best.hidden);
     best.is_uncertain =
         best.hidden != 0 && !is_of_file && hiddenChambers(points_, cornersOf(best.with_walls), best.turned) != 0;
     return closeCore(part, best, once, filled);
@@ -368,9 +364,6 @@ class SurfaceCloser
       {
         if (!closing_.fills_holes)
           return false;
-        if (getenv("DBG"))
-          for (auto& h : holes)
-            fprintf(stderr, "hole rim %zu triangles %zu area %g\n", h.rim.size(), h.triangles.size(), h.area);
         closePart(withHoles(part, holes), holes);
         return true;
       }
