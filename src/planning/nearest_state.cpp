@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <utility>
 
 #include <ompl/base/StateSpaceTypes.h>
@@ -19,20 +18,12 @@ namespace
 {
 namespace ob = ompl::base;
 
-// The compiler makes these functions for several instruction sets, and the program takes the best one of the machine.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#define GPS_CLONES [[gnu::target_clones("avx512f", "avx2", "default")]]
-#else
-#define GPS_CLONES
-#endif
-
 constexpr std::size_t kLanes = 8;
 using Lanes [[gnu::vector_size(kLanes * sizeof(double))]] = double;
 
 /// sums: for each state, the sum of (value - query)^2 of `count` values, which begin at `values` in the first block.
-GPS_CLONES
-void sumSquares(const double* values, std::size_t blocks, std::size_t width, const double* query, std::size_t count,
-                double* sums)
+[[gnu::always_inline]] inline void sumSquaresOf(const double* values, std::size_t blocks, std::size_t width,
+                                                const double* query, std::size_t count, double* sums)
 {
   for (std::size_t block = 0; block < blocks; ++block, values += width * kLanes, sums += kLanes)
   {
@@ -48,22 +39,30 @@ void sumSquares(const double* values, std::size_t blocks, std::size_t width, con
   }
 }
 
-/// The least of the values. `blocks` is at least 1.
-GPS_CLONES
-double leastOf(const double* values, std::size_t blocks)
+void sumSquaresBaseline(const double* values, std::size_t blocks, std::size_t width, const double* query,
+                        std::size_t count, double* sums)
 {
-  Lanes least;
-  std::memcpy(&least, values, sizeof least);
-  for (std::size_t block = 1; block < blocks; ++block)
-  {
-    Lanes next;
-    std::memcpy(&next, values + block * kLanes, sizeof next);
-    least = next < least ? next : least;
-  }
-  double result = least[0];
-  for (std::size_t lane = 1; lane < kLanes; ++lane)
-    result = std::min(result, least[lane]);
-  return result;
+  sumSquaresOf(values, blocks, width, query, count, sums);
+}
+
+#ifdef __x86_64__
+[[gnu::target("avx2")]] void sumSquaresAvx2(const double* values, std::size_t blocks, std::size_t width,
+                                            const double* query, std::size_t count, double* sums)
+{
+  sumSquaresOf(values, blocks, width, query, count, sums);
+}
+#endif
+
+using SumSquares = decltype(&sumSquaresBaseline);
+
+/// The fastest function that the machine can run. All have the same results.
+SumSquares fastestSumSquares()
+{
+#ifdef __x86_64__
+  if (__builtin_cpu_supports("avx2"))
+    return sumSquaresAvx2;
+#endif
+  return sumSquaresBaseline;
 }
 }  // namespace
 
@@ -121,10 +120,11 @@ void NearestState::clear()
 /// Adds the distances in a part to `distances_`.
 void NearestState::addDistances(const Part& part)
 {
+  static const SumSquares sum_squares = fastestSumSquares();
   const double* const query = &query_[part.first];
   const std::size_t blocks = distances_.size() / kLanes;
   if (part.kind == Kind::Vector)
-    sumSquares(&blocks_[part.first * kLanes], blocks, width_, query, part.count, sums_.data());
+    sum_squares(&blocks_[part.first * kLanes], blocks, width_, query, part.count, sums_.data());
   for (std::size_t i = 0; i < distances_.size(); ++i)
   {
     const double* const values = &blocks_[(i / kLanes * width_ + part.first) * kLanes + i % kLanes];
@@ -157,14 +157,9 @@ std::size_t NearestState::nearest(const ob::State* state)
   const std::size_t blocks = (count_ + kLanes - 1) / kLanes;
   distances_.assign(blocks * kLanes, 0.0);
   sums_.resize(blocks * kLanes);
-  if (parts_.size() == 1 && parts_.front().kind == Kind::Vector)
-    sumSquares(blocks_.data(), blocks, width_, query_.data(), width_, distances_.data());  // the same order of states
-  else
-    for (const Part& part : parts_)
-      addDistances(part);
-  std::fill(distances_.begin() + static_cast<std::ptrdiff_t>(count_), distances_.end(),
-            std::numeric_limits<double>::infinity());
-  const double least = leastOf(distances_.data(), blocks);
-  return static_cast<std::size_t>(std::find(distances_.begin(), distances_.end(), least) - distances_.begin());
+  for (const Part& part : parts_)
+    addDistances(part);
+  const auto end = distances_.begin() + static_cast<std::ptrdiff_t>(count_);
+  return static_cast<std::size_t>(std::min_element(distances_.begin(), end) - distances_.begin());
 }
 }  // namespace gpu_planning_scene::core
