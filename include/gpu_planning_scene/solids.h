@@ -80,15 +80,16 @@ struct SolidMesh
 /// 1. A component whose edges each have two triangles of opposite direction is closed. All others go on.
 /// 2. Vertices within a millionth of the mesh's diagonal count as one. Along seams, edges are joined with the vertices
 ///    beside them. In a part whose edges have at most two triangles, triangles are turned so that neighbours agree. In
-///    other parts, bodies touch each other or share walls. Such a part stays as it is in the file if its signed boundary
-///    is empty and the winding number is not 0 in any of its chambers. Otherwise everything is inside that the outside
-///    does not reach across an edge. If triangles cross so that this finds nothing, the parity of crossings decides.
+///    other parts, bodies touch each other or share walls. Such a part stays as it is in the file if its signed
+///    boundary is empty and the winding number is not 0 in any of its chambers. Otherwise everything is inside that the
+///    outside does not reach across an edge. If triangles cross so that this finds nothing, the parity of crossings
+///    decides.
 /// 3. Holes are filled with triangles of least area if these have at most a tenth of the part's area (kSmallHoles). A
 ///    part with larger holes remains a surface. With SolidRule::Filled, all holes are filled.
 ///
-/// If a chamber of a part may still count as outside, the part is in the list as a Surface too. Vertices never move. The
-/// triangles that fill a hole belong to the surface of the solid.
-/// Thread-safe. The result is shared between calls with the same mesh while someone holds it.
+/// If a chamber of a part may still count as outside, the part is in the list as a Surface too. Vertices never move.
+/// The triangles that fill a hole belong to the surface of the solid. Thread-safe. The result is shared between calls
+/// with the same mesh while someone holds it.
 std::shared_ptr<const SolidMesh> solidMeshOf(const std::shared_ptr<const Mesh>& mesh);
 
 /// The share of a part's area up to which holes are filled. See docs/error_bounds.md.

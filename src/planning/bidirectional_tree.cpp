@@ -131,8 +131,8 @@ const RrtTree::Vertex& BidirectionalTree::advance(const Attempt& attempt, const 
   return *tip;
 }
 
-std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionValidator& validator, std::size_t max_branches,
-                                                                double range,
+std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionValidator& validator,
+                                                                std::size_t max_branches, double range,
                                                                 const ompl::base::PlannerTerminationCondition& ptc)
 {
   scratch_used_ = 0;

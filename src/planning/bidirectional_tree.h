@@ -46,10 +46,10 @@ class BidirectionalTree
   void addRoot(Side side, const ompl::base::State* state);
 
   /// Grows the trees by one round; the samples of all its motions are checked in one call. One tree, mostly the smaller
-  /// one, grows motions towards random states: at most `max_branches`, and none in the first round. Both trees also grow towards their targets, which are
-  /// vertices of the other tree. Each vertex of a new random branch becomes a target of the other tree, from the next
-  /// round on. `range`: the longest motion, above 0. Returns the meetings of the trees. If `ptc` ends the round, the
-  /// trees stay as they were, and there are no meetings.
+  /// one, grows motions towards random states: at most `max_branches`, and none in the first round. Both trees also
+  /// grow towards their targets, which are vertices of the other tree. Each vertex of a new random branch becomes a
+  /// target of the other tree, from the next round on. `range`: the longest motion, above 0. Returns the meetings of
+  /// the trees. If `ptc` ends the round, the trees stay as they were, and there are no meetings.
   std::vector<Meeting> grow(const MotionValidator& validator, std::size_t max_branches, double range,
                             const ompl::base::PlannerTerminationCondition& ptc);
 

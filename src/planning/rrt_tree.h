@@ -20,7 +20,7 @@ class RrtTree
     ompl::base::State* state = nullptr;
     const Vertex* parent = nullptr;  // null: a root
     bool removed = false;
-    bool proven = false;  // the motion from the parent is valid by the validator's own rule
+    bool proven = false;     // the motion from the parent is valid by the validator's own rule
     std::size_t number = 0;  // in vertices()
 
     const Vertex& root() const;

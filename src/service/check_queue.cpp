@@ -221,9 +221,9 @@ bool CheckQueue::isReliefReady() const
   return is_relief_ready_ && store_.snapshot().scene == relief_.checked;
 }
 
-/// Gives the second thread's checker the newest scene. A check of one state makes everything that a check needs. Returns
-/// false if there is no checker: the first thread then answers the requests, or says what is wrong with the scene. The
-/// caller holds the lock.
+/// Gives the second thread's checker the newest scene. A check of one state makes everything that a check needs.
+/// Returns false if there is no checker: the first thread then answers the requests, or says what is wrong with the
+/// scene. The caller holds the lock.
 bool CheckQueue::prepareRelief(std::unique_lock<std::mutex>& lock)
 {
   lock.unlock();
