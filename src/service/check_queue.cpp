@@ -196,8 +196,8 @@ void CheckQueue::relieve()
     Clock::time_point due = kNever;
     if (first != waiting_.end())
       due = first->submitted + kPatience;
-    else if (!is_relief_ready_ && batch_start_ != kNever)
-      due = batch_start_ + kSlowBatch;
+    else if ((batch_start_ != kNever || !waiting_.empty()) && !isReliefReady())
+      due = std::min(batch_start_, Clock::now()) + kSlowBatch;
     due = std::max(due, rest);
     if (due == kNever)
       wake_.wait(lock);
@@ -215,15 +215,15 @@ void CheckQueue::relieve()
   }
 }
 
-/// Whether the second thread's checker has the newest scene. The caller holds the lock.
+/// Whether the second thread's checker has the newest scene. Called by the second thread.
 bool CheckQueue::isReliefReady() const
 {
-  return is_relief_ready_ && store_.snapshot().scene == relief_.checked;
+  return relief_.checked && store_.snapshot().scene == relief_.checked;
 }
 
-/// Gives the second thread's checker the newest scene. A check of one state makes everything that a check needs.
-/// Returns false if there is no checker: the first thread then answers the requests, or says what is wrong with the
-/// scene. The caller holds the lock.
+/// Gives the second thread's checker the newest scene, and checks one state, because the first check of a scene makes
+/// the trees. Returns false if there is no checker: the first thread then answers the requests, or says what is wrong
+/// with the scene. The caller holds the lock.
 bool CheckQueue::prepareRelief(std::unique_lock<std::mutex>& lock)
 {
   lock.unlock();
@@ -231,8 +231,7 @@ bool CheckQueue::prepareRelief(std::unique_lock<std::mutex>& lock)
   try
   {
     takeScene({}, relief_);
-    const std::vector<double> state(width_, 0.0);
-    relief_.checker->check(state.data(), 1, "");
+    relief_.checker->check(relief_.checked->robot->defaultState().data(), 1, "");
     is_ready = true;
   }
   catch (...)
@@ -240,7 +239,6 @@ bool CheckQueue::prepareRelief(std::unique_lock<std::mutex>& lock)
     // The first thread reports the error to those who ask.
   }
   lock.lock();
-  is_relief_ready_ = is_ready;
   return is_ready;
 }
 
@@ -263,8 +261,6 @@ CheckQueue::Batch CheckQueue::nextBatch()
   if (stopping_)
     return {};
   batch_start_ = Clock::now();
-  if (!is_relief_ready_)
-    wake_.notify_all();  // the second thread watches how long the batch takes
   return take(waiting_.begin(), max_merged_states_);
 }
 

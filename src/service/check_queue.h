@@ -82,7 +82,6 @@ class CheckQueue
   std::size_t waiting_states_ = 0;
   // When the first thread began its current batch; max: it has none.
   std::chrono::steady_clock::time_point batch_start_ = std::chrono::steady_clock::time_point::max();
-  bool is_relief_ready_ = false;
   bool stopping_ = false;
   CheckStatistics statistics_;
   std::thread thread_;  // last members: the threads use all members above

@@ -60,6 +60,12 @@ std::string errorOf(std::future<CheckAnswer>& answer)
   return "";
 }
 
+CheckServer::MakeChecker checkersAt(Gate& gate)
+{
+  return [&gate](std::shared_ptr<const PlanningScene> scene)
+  { return std::make_shared<GatedChecker>(std::move(scene), gate); };
+}
+
 class Server : public testing::Test
 {
  public:
@@ -91,10 +97,7 @@ class Server : public testing::Test
 
   Gate gate;
   SceneStore store{PlanningScene(sliderRobot()), {}, {}};
-  CheckServer server{store,
-                     [this](std::shared_ptr<const PlanningScene> scene)
-                     { return std::make_shared<GatedChecker>(std::move(scene), gate); },
-                     options()};
+  CheckServer server{store, checkersAt(gate), options()};
 };
 
 TEST_F(Server, SmallRequestsThatWaitTogetherAreOneBatchAndEachGetsItsOwnRows)
@@ -362,11 +365,7 @@ TEST_F(Server, SlicesBeginSmallAgainInANewScene)
   CheckServerOptions large = options();
   large.max_states = large.max_waiting_states = 20000;
   large.max_batch_states = 20000;
-  CheckServer roomy(
-      store,
-      [this](std::shared_ptr<const PlanningScene> scene)
-      { return std::make_shared<GatedChecker>(std::move(scene), gate); },
-      large);
+  CheckServer roomy(store, checkersAt(gate), large);
   roomy.submit(job(8000)).get();
   const std::vector<std::size_t> first = gate.batches();
   EXPECT_GT(first.at(1), first.at(0));
@@ -396,13 +395,7 @@ TEST_F(Server, RequestsOfFewStatesDoNotWaitForASlowBatch)
   Gate open_gate;
   CheckServerOptions roomy = options();
   roomy.small_request = 50;
-  CheckServer relieved(
-      store,
-      [this](std::shared_ptr<const PlanningScene> scene)
-      { return std::make_shared<GatedChecker>(std::move(scene), gate); },
-      roomy,
-      [&open_gate](std::shared_ptr<const PlanningScene> scene)
-      { return std::make_shared<GatedChecker>(std::move(scene), open_gate); });
+  CheckServer relieved(store, checkersAt(gate), roomy, checkersAt(open_gate));
   // The relief never takes a request of so many states.
   EXPECT_EQ(std::vector<std::uint8_t>(17, 1), relieved.submit(job(17)).get().result.valid);
   EXPECT_EQ(0U, open_gate.checkers()) << "without a slow batch, the relief has nothing to do";
@@ -436,13 +429,7 @@ TEST_F(Server, RequestsOfFewStatesDoNotWaitForASlowBatch)
 TEST_F(Server, TheReliefIsReadyBeforeARequestWaitsBesideASlowBatch)
 {
   Gate open_gate;
-  CheckServer relieved(
-      store,
-      [this](std::shared_ptr<const PlanningScene> scene)
-      { return std::make_shared<GatedChecker>(std::move(scene), gate); },
-      options(),
-      [&open_gate](std::shared_ptr<const PlanningScene> scene)
-      { return std::make_shared<GatedChecker>(std::move(scene), open_gate); });
+  CheckServer relieved(store, checkersAt(gate), options(), checkersAt(open_gate));
   gate.close();
   std::future<CheckAnswer> slow = relieved.submit(job(kSmall));
   for (int i = 0; i < 2000 && open_gate.checkers() == 0; ++i)
@@ -459,17 +446,13 @@ TEST_F(Server, TheFirstThreadAnswersWhileTheReliefIsMade)
   std::promise<void> begun;
   std::promise<void> may_end;
   Gate open_gate;
-  CheckServer relieved(
-      store,
-      [this](std::shared_ptr<const PlanningScene> scene)
-      { return std::make_shared<GatedChecker>(std::move(scene), gate); },
-      options(),
-      [&](std::shared_ptr<const PlanningScene> scene)
-      {
-        begun.set_value();
-        may_end.get_future().wait();
-        return std::make_shared<GatedChecker>(std::move(scene), open_gate);
-      });
+  CheckServer relieved(store, checkersAt(gate), options(),
+                       [&](std::shared_ptr<const PlanningScene> scene)
+                       {
+                         begun.set_value();
+                         may_end.get_future().wait();
+                         return checkersAt(open_gate)(std::move(scene));
+                       });
   gate.close();
   std::future<CheckAnswer> slow = relieved.submit(job(kSmall));
   gate.waitForChecks(1);
@@ -484,14 +467,12 @@ TEST_F(Server, TheFirstThreadAnswersWhileTheReliefIsMade)
 TEST_F(Server, WithoutAReliefTheFirstThreadAnswers)
 {
   std::atomic<int> attempts{0};
-  const auto make = [this](std::shared_ptr<const PlanningScene> scene)
-  { return std::make_shared<GatedChecker>(std::move(scene), gate); };
   const auto fail = [&attempts](const std::shared_ptr<const PlanningScene>&) -> std::shared_ptr<StateChecker>
   {
     ++attempts;
     throw Error("there is no memory for another checker");
   };
-  CheckServer relieved(store, make, options(), fail);
+  CheckServer relieved(store, checkersAt(gate), options(), fail);
   gate.close();
   std::future<CheckAnswer> slow = relieved.submit(job(kSmall));
   gate.waitForChecks(1);
