@@ -22,7 +22,9 @@ constexpr std::size_t kRoundsOfBothTrees = 8;
 // so in a small tree many of them would grow into the same region.
 constexpr std::size_t kVerticesPerBranch = 8;
 constexpr std::size_t kLeastBranches = 2;
-constexpr std::size_t kBranchesPerLook = 16;  // at the clock
+
+// In a large tree, the search for the nearest vertex takes time, so the clock is read after this many branches.
+constexpr std::size_t kBranchesBetweenStops = 16;
 
 // Between two roots, a free straight line saves the most work. There are few of these lines, so each gets many segments
 // at once.
@@ -142,9 +144,12 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
   for (const Connection& connection : connections_)
     attempts.push_back(pieces(connection, range));
   const std::size_t branches = branchesOfRound(max_branches);
-  // In a large tree, a search for the nearest vertex takes time.
-  for (std::size_t i = 0; i < branches && !(i % kBranchesPerLook == kBranchesPerLook - 1 && ptc); ++i)
+  for (std::size_t i = 0; i < branches; ++i)
+  {
+    if (i % kBranchesBetweenStops == kBranchesBetweenStops - 1 && ptc)
+      break;
     attempts.push_back(randomBranch(side, range));
+  }
 
   // The motions get the direction that they will have in the path.
   std::vector<MotionValidator::Motion> motions;

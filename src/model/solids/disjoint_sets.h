@@ -23,6 +23,24 @@ class DisjointSets
 
   void unite(std::uint32_t a, std::uint32_t b) { parent_[find(a)] = find(b); }
 
+  /// The elements of each set, in ascending order; the sets in the order of their first elements.
+  std::vector<std::vector<std::uint32_t>> sets()
+  {
+    std::vector<std::vector<std::uint32_t>> result;
+    std::vector<std::size_t> number(parent_.size(), parent_.size());
+    for (std::uint32_t element = 0; element < parent_.size(); ++element)
+    {
+      std::size_t& set = number[find(element)];
+      if (set == parent_.size())
+      {
+        set = result.size();
+        result.emplace_back();
+      }
+      result[set].push_back(element);
+    }
+    return result;
+  }
+
  private:
   std::vector<std::uint32_t> parent_;
 };

@@ -163,13 +163,20 @@ OrientedSurface orient(const std::vector<Vector3d>& points, const std::vector<Co
   Patches patches = findPatches(points, triangles, uses);
   if (patches.count > 1)
     turnPatches(points, uses, patches);
-  OrientedSurface surface;
-  surface.triangles = triangles;
+  std::vector<Corners> turned = triangles;
   for (std::size_t t = 0; t < triangles.size(); ++t)
     if (patches.turned[t])
-      std::swap(surface.triangles[t][1], surface.triangles[t][2]);
-  surface.boundary = signedBoundary(surface.triangles);
-  visitEdges(uses, [&](auto first, auto last) { surface.even = surface.even && (last - first) % 2 == 0; });
+      std::swap(turned[t][1], turned[t][2]);
+  return asOriented(std::move(turned));
+}
+
+OrientedSurface asOriented(std::vector<Corners> triangles)
+{
+  OrientedSurface surface;
+  surface.boundary = signedBoundary(triangles);
+  visitEdges(edgeUses(triangles),
+             [&](auto first, auto last) { surface.even = surface.even && (last - first) % 2 == 0; });
+  surface.triangles = std::move(triangles);
   return surface;
 }
 }  // namespace gpu_planning_scene::core

@@ -29,6 +29,9 @@ struct OrientedSurface
 /// patches are turned as long as that shortens the signed boundary. The triangles must have distinct corners.
 OrientedSurface orient(const std::vector<Eigen::Vector3d>& points, const std::vector<Corners>& triangles);
 
+/// The surface with the directions that the triangles have. They must have distinct corners.
+OrientedSurface asOriented(std::vector<Corners> triangles);
+
 /// The signed boundary of triangles with distinct corners.
 std::vector<BoundaryEdge> signedBoundary(const std::vector<Corners>& triangles);
 

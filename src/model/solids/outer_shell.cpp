@@ -2,19 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <optional>
 #include <set>
+#include <utility>
 
 #include <Eigen/Geometry>
 
+#include "model/solids/line_crossing.h"
 #include "model/solids/orientation.h"
 
 // Around an edge, the triangles are sorted by angle. The space between two neighbours joins the side of the one that
 // faces the other. The sets of joined sides are the boundaries of the chambers and of the outside (Q. Zhou, E.
 // Grinspun, D. Zorin, A. Jacobson: Mesh arrangements for solid geometry. ACM Transactions on Graphics 35(4), 2016). A
-// ray that leaves the surface finds a side that faces the outside.
+// line through the surface begins and ends outside.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -28,12 +28,13 @@ constexpr double kSameAngle = 1e-6;
 /// from an end of the edge.
 constexpr double kOnLine = 1e-9;
 
-/// Rays begin at so many triangles of a piece.
-constexpr std::size_t kMostOrigins = 64;
-/// A ray that meets a triangle this near to its border, as a share of its area, is not used.
-constexpr double kNearBorder = 1e-6;
+/// Lines go through so many triangles of a piece.
+constexpr std::size_t kMostLines = 64;
+/// Two triangles on a line are at one place if their distance is at most this share of their distance from its origin.
+constexpr double kSamePlace = 1e-6;
 
-/// The number of a side of a triangle. The front is the side from which its corners run counter-clockwise.
+/// The number of a side of a triangle; that of the other side differs in the last bit. The front is the side from which
+/// its corners run counter-clockwise.
 std::uint32_t front(std::uint32_t triangle)
 {
   return 2 * triangle;
@@ -84,55 +85,29 @@ class Sides
                });
   }
 
-  bool areJoined(std::uint32_t a, std::uint32_t b) { return joined_.find(a) == joined_.find(b); }
+  /// The number of the set of joined sides to which a side belongs.
+  std::uint32_t setOf(std::uint32_t side) { return joined_.find(side); }
 
   /// The triangles of each set that edges connect.
-  std::vector<std::vector<std::uint32_t>> pieces()
-  {
-    std::vector<std::vector<std::uint32_t>> result;
-    std::vector<std::size_t> number(triangles_.size(), triangles_.size());
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-    {
-      std::size_t& piece = number[pieces_.find(t)];
-      if (piece == triangles_.size())
-      {
-        piece = result.size();
-        result.emplace_back();
-      }
-      result[piece].push_back(t);
-    }
-    return result;
-  }
+  std::vector<std::vector<std::uint32_t>> pieces() { return pieces_.sets(); }
 
-  /// Sides of the piece that face the outside, found by rays from the largest triangle of each set of joined sides. Of
-  /// two sheets that lie upon one another, the outer one can be taken for the inner one. Then the outside is more than
-  /// one set.
-  std::vector<std::uint32_t> outside(const std::vector<std::uint32_t>& piece)
+  /// The sets of sides of a piece that face the outside, found by lines through the largest triangle of each set. The
+  /// outside is more than one set if, of two sheets that lie upon one another, the outer one was taken for the inner
+  /// one.
+  std::set<std::uint32_t> outside(const std::vector<std::uint32_t>& piece)
   {
-    std::map<std::uint32_t, std::uint32_t> largest;  // triangle of each set
-    for (const std::uint32_t t : piece)
-      for (const std::uint32_t side : {front(t), back(t)})
-        if (std::uint32_t& known = largest.try_emplace(joined_.find(side), t).first->second;
-            normal(t).squaredNorm() > normal(known).squaredNorm())
-          known = t;
-    std::set<std::uint32_t> origins;
-    for (const auto& [unused, triangle] : largest)
-      if (origins.size() < kMostOrigins)
-        origins.insert(triangle);
-    // Directions off the normal, because opposite triangles often lie exactly opposite each other.
+    // Off the normal, because opposite triangles often lie exactly opposite each other.
     const Vector3d tilts[] = {{0.0123, 0.0371, 0.0237}, {-0.0531, 0.0113, 0.0319}};
-    std::vector<std::uint32_t> sides;
-    for (const std::uint32_t triangle : origins)
+    std::set<std::uint32_t> sets;
+    for (const std::uint32_t triangle : largestOfSets(piece))
       for (const Vector3d& tilt : tilts)
-        for (const double sign : {1.0, -1.0})
-        {
-          const Corners& t = triangles_[triangle];
-          const Vector3d origin = 0.31 * points_[t[0]] + 0.36 * points_[t[1]] + 0.33 * points_[t[2]];
-          const Vector3d direction = sign * (normal(triangle).normalized() + tilt);
-          if (const std::optional<std::uint32_t> side = lastSide(piece, origin, direction))
-            sides.push_back(*side);
-        }
-    return sides;
+      {
+        const Corners& t = triangles_[triangle];
+        const Vector3d origin = 0.31 * points_[t[0]] + 0.36 * points_[t[1]] + 0.33 * points_[t[2]];
+        for (const std::uint32_t side : sidesAtEnds(piece, {origin, normal(triangle).normalized() + tilt}))
+          sets.insert(setOf(side));
+      }
+    return sets;
   }
 
  private:
@@ -142,6 +117,25 @@ class Sides
   {
     const Corners& t = triangles_[triangle];
     return (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]);
+  }
+
+  /// The largest triangle of each set of joined sides; of many sets, those with the largest triangles.
+  std::vector<std::uint32_t> largestOfSets(const std::vector<std::uint32_t>& piece)
+  {
+    const auto is_larger = [this](std::uint32_t a, std::uint32_t b)
+    { return normal(a).squaredNorm() > normal(b).squaredNorm(); };
+    std::map<std::uint32_t, std::uint32_t> of_set;
+    for (const std::uint32_t t : piece)
+      for (const std::uint32_t side : {front(t), back(t)})
+        if (std::uint32_t& known = of_set.try_emplace(setOf(side), t).first->second; is_larger(t, known))
+          known = t;
+    std::set<std::uint32_t> distinct;
+    for (const auto& [set, triangle] : of_set)
+      distinct.insert(triangle);
+    std::vector<std::uint32_t> largest(distinct.begin(), distinct.end());
+    std::sort(largest.begin(), largest.end(), is_larger);
+    largest.resize(std::min(largest.size(), kMostLines));
+    return largest;
   }
 
   /// Sorts the triangles at an edge by angle. Of triangles that lie upon one another, the others are always on
@@ -195,37 +189,29 @@ class Sides
     return are_sorted;
   }
 
-  /// The side at which a ray leaves the piece for the last time; empty if it meets a triangle near its border.
-  std::optional<std::uint32_t> lastSide(const std::vector<std::uint32_t>& piece, const Vector3d& origin,
-                                        const Vector3d& direction) const
+  /// The outer sides of the first and the last triangle on a line; none if the line passes near a border, and no side
+  /// where two triangles are at one place.
+  std::vector<std::uint32_t> sidesAtEnds(const std::vector<std::uint32_t>& piece, const Line& line) const
   {
-    std::optional<std::uint32_t> side;
-    double last = -std::numeric_limits<double>::infinity();
-    double next_to_last = last;
-    for (const std::uint32_t number : piece)
+    std::vector<std::pair<double, std::uint32_t>> ends;  // place on the line, and the side towards its end
+    for (const std::uint32_t t : piece)
     {
-      const Corners& t = triangles_[number];
-      const Vector3d a = points_[t[0]] - origin;
-      const Vector3d b = points_[t[1]] - origin;
-      const Vector3d c = points_[t[2]] - origin;
-      const double weights[] = {direction.dot(b.cross(c)), direction.dot(c.cross(a)), direction.dot(a.cross(b))};
-      const double sum = weights[0] + weights[1] + weights[2];
-      const double border = kNearBorder * (std::abs(weights[0]) + std::abs(weights[1]) + std::abs(weights[2]));
-      const double sign = sum < 0.0 ? -1.0 : 1.0;
-      const double least = std::min({sign * weights[0], sign * weights[1], sign * weights[2]});
-      if (least < -border)
-        continue;
-      if (!(least > border))
-        return std::nullopt;
-      const double distance = (weights[0] * a + weights[1] * b + weights[2] * c).dot(direction) / sum;
-      next_to_last = std::max(next_to_last, std::min(last, distance));
-      if (distance <= last)
-        continue;
-      last = distance;
-      side = sum > 0.0 ? front(number) : back(number);
+      const LineCrossing met = crossing(line, points_, triangles_[t]);
+      if (met.kind == LineCrossing::NearBorder)
+        return {};
+      if (met.kind == LineCrossing::Certain)
+        ends.emplace_back(met.at, met.leaves_at_front ? front(t) : back(t));
     }
-    const bool is_sure = side && last - next_to_last > kNearBorder * std::max(std::abs(last), std::abs(next_to_last));
-    return is_sure ? side : std::nullopt;
+    std::sort(ends.begin(), ends.end());
+    std::vector<std::uint32_t> sides;
+    const auto are_apart = [](double a, double b) { return b - a > kSamePlace * std::max(std::abs(a), std::abs(b)); };
+    if (ends.size() < 2)
+      return sides;
+    if (are_apart(ends[0].first, ends[1].first))
+      sides.push_back(ends[0].second ^ 1U);  // the other side: the line comes from the outside
+    if (are_apart(ends[ends.size() - 2].first, ends.back().first))
+      sides.push_back(ends.back().second);
+    return sides;
   }
 
   const std::vector<Vector3d>& points_;
@@ -246,25 +232,17 @@ OuterShell outerShell(const std::vector<Vector3d>& points, const std::vector<Cor
   Sides sides(points, oriented, order);
   for (const std::vector<std::uint32_t>& piece : sides.pieces())
   {
-    const std::vector<std::uint32_t> outside = sides.outside(piece);
-    if (outside.empty())
-      continue;
-    const auto is_outside = [&](std::uint32_t side)
-    {
-      return std::any_of(outside.begin(), outside.end(),
-                         [&](std::uint32_t other) { return sides.areJoined(side, other); });
-    };
+    const std::set<std::uint32_t> outside = sides.outside(piece);
     for (const std::uint32_t t : piece)
     {
-      const bool is_front = is_outside(front(t));
-      const bool is_back = is_outside(back(t));
-      shell.places[t] = is_front && is_back   ? ShellPlace::Beside
-                        : is_front || is_back ? ShellPlace::Shell
-                                              : ShellPlace::Wall;
+      const bool is_front = outside.count(sides.setOf(front(t))) != 0;
+      const bool is_back = outside.count(sides.setOf(back(t))) != 0;
+      shell.places[t] = outside.empty() || (is_front && is_back) ? ShellPlace::Beside
+                        : is_front || is_back                    ? ShellPlace::Shell
+                                                                 : ShellPlace::Wall;
       shell.turned[t] = (is_back && !is_front) != (oriented[t] != triangles[t]);
     }
   }
   return shell;
 }
-
 }  // namespace gpu_planning_scene::core

@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "model/solids/line_crossing.h"
+
 // Shells form a forest: the parent of a shell is the smallest one that it lies in. From the roots on, a shell adds 1 to
 // the winding number, or takes 1 away if it is a cavity. Triangles are apart if an axis separates them (S. Gottschalk:
 // Separating axis theorem, 1996). A shell that is not proven to lie in another one is no cavity, so doubt makes a solid
@@ -157,6 +159,11 @@ class Nesting
   /// Whether a point of `inner` has a winding number of `outer` that is not 0.
   bool startsIn(const Shell& inner, const Shell& outer)
   {
+    const std::array<Vector3d, 3> directions = {
+        {{1.0, 0.0137, -0.0291}, {-0.0173, 1.0, 0.0219}, {0.0311, -0.0157, 1.0}}};
+    std::vector<Corners> triangles;
+    for (const std::uint32_t t : outer.triangles)
+      triangles.push_back(triangles_[t]);
     constexpr std::size_t kMostRays = 12;
     for (std::size_t ray = 0; ray < kMostRays; ++ray)
     {
@@ -164,52 +171,10 @@ class Nesting
       const Vector3d start = 0.2718281828 * c[0] + 0.3141592654 * c[1] + 0.4140125318 * c[2];
       if (!spend(outer.triangles.size()))
         return false;
-      if (const std::optional<int> winding = windingAt(start, outer, static_cast<int>(ray % 3)))
+      if (const std::optional<int> winding = windingNumber({start, directions[ray % 3]}, points_, triangles))
         return *winding != 0;
     }
     return false;
-  }
-
-  /// The sum of the signed crossings of a ray along a coordinate axis; empty if it passes too near to an edge.
-  std::optional<int> windingAt(const Vector3d& start, const Shell& shell, int axis) const
-  {
-    const int x = (axis + 1) % 3;
-    const int y = (axis + 2) % 3;
-    int winding = 0;
-    for (const std::uint32_t t : shell.triangles)
-    {
-      const std::array<Vector3d, 3> c = cornersOf(t);
-      std::array<Vector3d, 3> r;
-      for (int i = 0; i < 3; ++i)
-        r[i] = c[i] - start;
-      const auto all = [&](const auto& test) { return test(r[0]) && test(r[1]) && test(r[2]); };
-      if (all([&](const Vector3d& v) { return v[x] < 0.0; }) || all([&](const Vector3d& v) { return v[x] > 0.0; }) ||
-          all([&](const Vector3d& v) { return v[y] < 0.0; }) || all([&](const Vector3d& v) { return v[y] > 0.0; }) ||
-          all([&](const Vector3d& v) { return v[axis] < 0.0; }))
-        continue;
-      const double size = std::max({r[0].squaredNorm(), r[1].squaredNorm(), r[2].squaredNorm()});
-      std::array<double, 3> area;
-      bool above = true, below = true, some_above = false, some_below = false;
-      for (int i = 0; i < 3; ++i)
-      {
-        const Vector3d& next = r[(i + 1) % 3];
-        area[i] = r[i][x] * next[y] - r[i][y] * next[x];
-        above = above && area[i] > kShareOfRounding * size;
-        below = below && area[i] < -kShareOfRounding * size;
-        some_above = some_above || area[i] > kShareOfRounding * size;
-        some_below = some_below || area[i] < -kShareOfRounding * size;
-      }
-      if (some_above && some_below)
-        continue;
-      if (!above && !below)
-        return {};
-      const double height = (area[1] * r[0][axis] + area[2] * r[1][axis] + area[0] * r[2][axis]) * (above ? 1.0 : -1.0);
-      if (std::abs(height) <= kShareOfRounding * size * std::sqrt(size))
-        return {};
-      if (height > 0.0)
-        winding += above ? 1 : -1;
-    }
-    return winding;
   }
 
   const std::vector<Vector3d>& points_;

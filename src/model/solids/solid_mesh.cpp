@@ -165,7 +165,7 @@ std::vector<std::uint32_t> closeOpenParts(const std::vector<Corners>& triangles,
                                           std::vector<std::uint32_t> open, SolidMesh& solid)
 {
   std::vector<std::uint32_t> cycles(triangles.size(), 0);
-  std::uint32_t first_cycle = 0;  // less 1, of an attempt
+  std::uint32_t known_cycles = 0;  // of the attempts before
   ChangedMesh mesh(solid.mesh, places);
   const std::vector<Closing> closings = attempts(diagonal, solid.mesh->solid);
   for (const Closing& closing : closings)
@@ -174,7 +174,7 @@ std::vector<std::uint32_t> closeOpenParts(const std::vector<Corners>& triangles,
     for (const std::uint32_t t : open)
       part.push_back(triangles[t]);
     const bool is_last = &closing == &closings.back();
-    ClosedSurface surface = closeSurface(places.points, std::move(part), closing);
+    ClosedSurface surface = closeSurface(places.points, part, closing);
     for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     {
       if (surface.roles[i] == TriangleRole::Surface)
@@ -183,16 +183,16 @@ std::vector<std::uint32_t> closeOpenParts(const std::vector<Corners>& triangles,
       {
         mesh.turn(open[i], surface.triangles[i]);
         solid.roles[open[i]] = surface.roles[i];
-        cycles[open[i]] = first_cycle + surface.cycles[i];
+        cycles[open[i]] = known_cycles + surface.cycles[i];
       }
       else
       {
         mesh.add(surface.triangles[i]);
         solid.roles.push_back(surface.roles[i]);
-        cycles.push_back(first_cycle + surface.cycles[i]);
+        cycles.push_back(known_cycles + surface.cycles[i]);
       }
     }
-    first_cycle = std::max(first_cycle, *std::max_element(cycles.begin(), cycles.end()));
+    known_cycles = *std::max_element(cycles.begin(), cycles.end());
     for (const MeshPart& part_found : surface.parts)
       if (part_found.kind != PartKind::Surface || is_last)
         solid.parts.other.push_back(part_found);

@@ -6,7 +6,7 @@
 
 #include "gpu_planning_scene/solids.h"
 #include "model/solids/mesh_edges.h"
-#include "model/solids/welding.h"
+#include "model/solids/welded_triangles.h"
 
 namespace gpu_planning_scene::core
 {
@@ -21,19 +21,6 @@ struct ClosedSurface
   std::vector<std::uint32_t> open;    ///< the numbers of the input's triangles in parts of the kind Surface
 };
 
-/// Triangles are in one part if a chain of these connects them.
-enum class ConnectedBy
-{
-  CommonEdges,
-  CommonCorners  ///< missing triangles may cut a surface into pieces that have only corners in common
-};
-
-enum class WeldedCorners
-{
-  All,
-  OfFreeEdges  ///< of edges that an odd number of triangles use
-};
-
 /// How to close the parts of a surface.
 struct Closing
 {
@@ -45,6 +32,6 @@ struct Closing
 };
 
 /// Steps 2 and 3 of solidMeshOf for triangles of a mesh.
-ClosedSurface closeSurface(const std::vector<Eigen::Vector3d>& points, std::vector<Corners> triangles,
+ClosedSurface closeSurface(const std::vector<Eigen::Vector3d>& points, const std::vector<Corners>& triangles,
                            const Closing& closing);
 }  // namespace gpu_planning_scene::core

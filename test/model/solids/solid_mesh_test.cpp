@@ -650,7 +650,8 @@ TEST(SolidMesh, ChangesAnswersBesideItsHolesOnlyAboveTheLimit)
         }
       }
       std::cout << std::setw(14) << static_cast<double>(lost) / static_cast<double>(inside);
-      EXPECT_TRUE(share < 2.0 * kSmallHoles || lost == inside) << share;
+      // What is left of a mesh may be cut into pieces, and a piece of it may be closed.
+      EXPECT_TRUE(share < 2.0 * kSmallHoles || 10 * lost > 9 * inside) << share;
     }
     std::cout << "\n";
   }
