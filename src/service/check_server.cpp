@@ -20,10 +20,24 @@ bool isSmall(const CheckJob& job, const SceneStore& store)
 }
 }  // namespace
 
+CheckStatistics& CheckStatistics::operator+=(const CheckStatistics& other)
+{
+  requests += other.requests;
+  batches += other.batches;
+  states += other.states;
+  undecided += other.undecided;
+  busy += other.busy;
+  errors += other.errors;
+  waiting_requests += other.waiting_requests;
+  waiting_states += other.waiting_states;
+  return *this;
+}
+
 CheckServer::CheckServer(const SceneStore& store, const MakeChecker& make_checker, const CheckServerOptions& options,
                          const MakeChecker& make_relief)
   : store_(store),
     options_(options),
+    width_(store.snapshot().scene->robot->variables().size()),
     small_(std::make_unique<CheckQueue>(store, make_checker, options, kMergedRequests * options.small_request,
                                         make_relief)),
     large_(std::make_unique<CheckQueue>(store, make_checker, options, 0))
@@ -42,7 +56,7 @@ void CheckServer::requireStateCount(std::size_t count) const
 
 std::future<CheckAnswer> CheckServer::submit(CheckJob job)
 {
-  const std::size_t width = job.columns.empty() ? small_->stateWidth() : job.columns.size();
+  const std::size_t width = job.columns.empty() ? width_ : job.columns.size();
   if (width == 0 ? !job.states.empty() : job.states.size() % width != 0)
     throw Error(std::to_string(job.states.size()) + " values do not make rows of " + std::to_string(width) +
                 " variables");
@@ -64,15 +78,6 @@ void CheckServer::stop()
 CheckStatistics CheckServer::statistics() const
 {
   CheckStatistics sum = small_->statistics();
-  const CheckStatistics large = large_->statistics();
-  sum.requests += large.requests;
-  sum.batches += large.batches;
-  sum.states += large.states;
-  sum.undecided += large.undecided;
-  sum.busy += large.busy;
-  sum.errors += large.errors;
-  sum.waiting_requests += large.waiting_requests;
-  sum.waiting_states += large.waiting_states;
-  return sum;
+  return sum += large_->statistics();
 }
 }  // namespace gpu_planning_scene::core

@@ -70,6 +70,8 @@ struct CheckStatistics
   std::uint64_t errors = 0;     ///< requests that ended with an error
   std::size_t waiting_requests = 0;
   std::size_t waiting_states = 0;
+
+  CheckStatistics& operator+=(const CheckStatistics& other);
 };
 
 class CheckQueue;
@@ -113,6 +115,7 @@ class CheckServer
  private:
   const SceneStore& store_;
   const CheckServerOptions options_;
+  const std::size_t width_;  // variables of the robot
   std::unique_ptr<CheckQueue> small_;
   std::unique_ptr<CheckQueue> large_;
 };

@@ -40,7 +40,7 @@ void LaneChecker::useProofs()
   const std::shared_ptr<const RobotProofs> proofs = job_->proofs();
   if (proofs == proofs_)
     return;
-  scene_ = std::make_shared<const LaneScene>(robot_, *problem_, *forest_, proofs);
+  scene_ = std::make_shared<const LaneScene>(*robot_, *problem_, *forest_, proofs);
   proofs_ = proofs;
 }
 

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <vector>
 
@@ -10,6 +9,7 @@
 
 #include "collision/exact/cpu_forest.h"
 #include "collision/exact/cpu_traversal.h"
+#include "collision/filter/lanes/lane_frames.h"
 #include "collision/filter/lanes/lane_model.h"
 #include "collision/filter/proofs/robot_proofs.h"
 #include "collision/problem/collision_problem.h"
@@ -22,13 +22,13 @@ namespace gpu_planning_scene::core
 class LaneScene
 {
  public:
-  LaneScene(std::shared_ptr<const RobotModel> robot, const CollisionProblem& problem, const CpuForest& forest,
+  LaneScene(const RobotModel& robot, const CollisionProblem& problem, const CpuForest& forest,
             std::shared_ptr<const RobotProofs> proofs);
 
   const lanes::Model& model() const { return model_; }
 
   /// Whether the error bounds hold for a state: no value is too large for float arithmetic.
-  bool isWithinBounds(const double* state) const;
+  bool isWithinBounds(const double* state) const { return frames_.isWithinBounds(state); }
 
   /// The instances of a pair of the kernel.
   const InstancePair& instancesOf(std::uint32_t pair) const { return pairs_[pair]; }
@@ -38,36 +38,11 @@ class LaneScene
   std::size_t selfPairOf(std::uint32_t pair) const { return self_pair_of_[pair]; }
 
  private:
-  /// The values of a variable for which the error bounds hold: those within `most` of `middle`.
-  struct Limit
+  /// Bounds for the centres of an instance's balls and box, or for that of a cluster, in metres.
+  struct CenterError
   {
-    double middle = 0.0;
-    double most = std::numeric_limits<double>::max();
-  };
-
-  /// A motion along an axis, by multiplier * variable + offset.
-  struct Slide
-  {
-    Eigen::Vector3d axis;
-    int variable;
-    double middle;  // of the variable
-    double most;    // metres: the largest distance of the variable from the middle
-    double multiplier = 1.0;
-    double offset = 0.0;
-  };
-
-  /// Error bounds of the kernel for a frame, in metres.
-  struct FrameError
-  {
-    double step = 0.0;              // largest distance of the frame's origin from the origin of its parent
-    double largest_distance = 0.0;  // largest distance of the frame's origin from the origin of coordinates
-    double rotation = 0.0;          // of a rotated vector of length 1
-    double position = 0.0;          // of the frame's origin
-  };
-
-  /// Error bounds for the centres of an instance's balls, in metres.
-  struct InstanceError
-  {
+    int frame;
+    double in_frame = 0.0;          // largest distance of a centre from the origin of its frame
     double largest_distance = 0.0;  // largest distance of a centre from the origin of coordinates
     double position = 0.0;
   };
@@ -78,13 +53,6 @@ class LaneScene
     double radius = 0.0;    // half the diagonal of the box, in metres
   };
 
-  void addFrames();
-  int addFramesOf(const Joint& joint, int parent, const Eigen::Isometry3d& origin);
-  int addTurn(const Joint& joint, int variable, int parent, const Eigen::Isometry3d& origin);
-  int addSlide(const Slide& slide, int parent, const Eigen::Isometry3d& origin);
-  int addQuaternion(int variable, int parent);
-  int addFrame(lanes::Frame frame, int parent, double step, double turn);
-  void limit(int variable, const Limit& limit);
   void addInstance(const ShapeInstance& instance, const BallCover& cover, const OrientedBox& box);
   void addClusters();
   void addSelfPairs(const CollisionProblem& problem);
@@ -92,21 +60,17 @@ class LaneScene
   void addSelfGroups(std::uint32_t first);
   std::uint32_t centerOf(std::uint32_t instance) const;
   void addWorld(const CollisionProblem& problem, const CpuForest& forest);
+  double distanceBetween(const CenterError& a, const CenterError& b) const;
   double selfError(std::uint32_t a, std::uint32_t b) const;
   lanes::BoxThresholds boxThresholds(std::uint32_t a, std::uint32_t b) const;
 
-  std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const RobotProofs> proofs_;
   Eigen::Vector3d origin_;  // of the kernel's coordinates, in the planning frame
+  LaneFrames frames_;
 
-  std::vector<int> frame_of_link_;
-  std::vector<Eigen::Isometry3d> in_frame_;  // of each link: its pose in its frame
-  std::vector<Limit> limits_;                // of each variable, see isWithinBounds
-  std::vector<FrameError> frame_errors_;
-  std::vector<InstanceError> instance_errors_;
+  std::vector<CenterError> instance_errors_;
   std::vector<BoxError> box_errors_;
 
-  std::vector<lanes::Frame> frames_;
   std::vector<lanes::Instance> instances_;
   std::vector<lanes::Object> objects_;
   std::vector<lanes::Table> tables_;
