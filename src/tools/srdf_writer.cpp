@@ -7,6 +7,7 @@
 #include <tinyxml2.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/robot_text.h"
 #include "tools/chain_groups.h"
 
 namespace gpu_planning_scene::core
@@ -26,6 +27,12 @@ std::string commentText(const GeneratedMatrix& matrix, const RobotModel& robot, 
        << " % of the states. Default: also in the default state (every variable\n    is 0, or in the middle of its "
        << "limits if 0 is outside). Never: a proof shows that they collide in no state within\n    the limits of the "
        << "joints. " << matrix.remaining_pairs << " pairs of links remain to be checked. ";
+  // A proof does not hold beyond the limits of this run, and joint_limits may widen them later.
+  const std::vector<std::string> sources = describeLimitSources(robot);
+  text << "The limits are those of <limit>" << (sources.empty() ? "." : ", but:");
+  for (const std::string& source : sources)
+    text << "\n    " << source;
+  text << " ";
   return text.str();
 }
 

@@ -356,6 +356,16 @@ TEST_F(SceneKeys, OfOtherFormatsForPosesAndSizesAreErrors)
                       .find("scene.yaml:1: unknown key '" + key + "' in an object; it has 'header', 'pose'"));
 }
 
+TEST_F(SceneKeys, AboutSizesDistancesAndUncheckedPairsAreErrors)
+{
+  for (const std::string key : {"robot_padding", "default_robot_padding", "default_attached_padding", "safety_margin",
+                                "minClearance", "inflation", "acm", "disable_collisions", "disabled", "units"})
+    EXPECT_EQ(0u, errorOfScene("name: hall\n" + key + ": {cart: 0.1}").find("scene.yaml:2: unknown key '" + key + "'"))
+        << key;
+  EXPECT_EQ(0u, errorOfScene("world: {collision_objects: [{id: a, meshes: [{resource: a.stl, scaling: [2, 2, 2]}]}]}")
+                    .find("scene.yaml:1: unknown key 'scaling' in a mesh"));
+}
+
 TEST_F(SceneKeys, ThatHoldObjectsOrShapesAreErrors)
 {
   EXPECT_EQ(0u, errorOfScene("name: a\nobstacles: [{id: a, primitives: [{type: sphere, dimensions: [1]}]}]")

@@ -111,6 +111,18 @@ TEST_F(GenerateAcm, TheCommentsSayWhatProvesThatAPairNeverCollides)
   EXPECT_EQ(srdf.find("-->"), srdf.find("--", comment)) << srdf;
 }
 
+TEST_F(GenerateAcm, TheCommentsNameTheLimitsForWhichTheProofsHold)
+{
+  ASSERT_EQ(0, generate({"--samples", "100"}).exit_code);
+  EXPECT_NE(std::string::npos, contentOf(out).find("The limits are those of <limit>. -->")) << contentOf(out);
+  const std::string planning =
+      folder.write("limits.yaml", "joint_limits: {slide: {min_position: -1, max_position: 9}}");
+  ASSERT_EQ(0, generate({"--samples", "100", "--planning", planning}).exit_code);
+  EXPECT_NE(std::string::npos, contentOf(out).find("The limits are those of <limit>, but:\n    limits from " +
+                                                   planning + ": 'slide' (-1 to 9)"))
+      << contentOf(out);
+}
+
 TEST_F(GenerateAcm, APairThatCollidesInNoRandomStateStaysCheckedWithoutAProof)
 {
   // The corners of the bar, 0.5025 m from the hinge, turn past the post at a distance of 1.5 mm. The balls of Reach are

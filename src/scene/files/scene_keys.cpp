@@ -139,6 +139,19 @@ bool isPlacementOfOtherFormats(const std::string& word)
   return contains(words, plainKey(word));
 }
 
+/// Whether a word is about sizes, distances or pairs that are not checked, as `default_robot_padding` of MoveIt's
+/// parameters is.
+bool changesChecks(const std::string& word)
+{
+  static const std::vector<std::string> parts = {"padding",   "margin", "clearance", "inflat",
+                                                 "collision", "disabl", "scal"};
+  static const std::vector<std::string> words = {"acm", "unit", "units"};
+  const std::string letters = plainKey(word);
+  return contains(words, letters) ||
+         std::any_of(parts.begin(), parts.end(),
+                     [&](const std::string& part) { return letters.find(part) != std::string::npos; });
+}
+
 /// A key inside of `value` that gives objects, shapes or joint values; empty if there is none. A value with an anchor
 /// is passed over: it can be used elsewhere in the file.
 std::string contentOf(const YamlValue& value)
@@ -207,6 +220,8 @@ void checkKeys(const YamlValue& map, SceneMap kind, std::vector<std::string>* wa
     if (const std::string content = contentOf(value); !content.empty())
       value.failAtKey("unknown key '" + key + "' in " + keys.name + ": its '" + content + "' would be lost; " +
                       keys.name + " has " + keyList(keys.known));
+    if (changesChecks(key))
+      value.failAtKey("unknown key '" + key + "' in " + keys.name + "; it has " + keyList(keys.known));
     if (warnings != nullptr)
       warnings->push_back(value.keyWhere() + ": unknown key '" + key + "' is not used");
   }

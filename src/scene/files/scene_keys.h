@@ -47,6 +47,7 @@ enum class SceneMap
 /// - it is near to a known key of the map, for example `poses` to `pose`
 /// - it is a key of another map, for example `collision_objects` outside of `world`
 /// - it is another format's word for a pose, a size or a file, for example `xyz` in an object
+/// - it is about sizes, distances or pairs that are not checked, for example `default_robot_padding` or `scaling`
 /// - its value has objects, shapes or joint values, for example `obstacles: [{id: a, primitives: [...]}]`
 /// - it is in a pose or a similar small map, which has no room for further keys
 /// Any other unknown key gets a line in `warnings` (may be null).
