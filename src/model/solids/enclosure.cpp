@@ -8,9 +8,9 @@
 #include "model/solids/missed_places.h"
 #include "model/solids/outer_shell.h"
 
-// Several bodies in one part: they touch each other or share walls, and some of them may be inside out. If the file's own
-// triangles have no signed boundary and miss no place, they are taken as they are, cavities included. Otherwise every
-// chamber is solid. Own method.
+// Several bodies in one part: they touch each other or share walls, and some of them may be inside out. If the file's
+// own triangles have no signed boundary and miss no place, they are taken as they are, cavities included. Otherwise
+// every chamber is solid. Own method.
 namespace gpu_planning_scene::core
 {
 namespace

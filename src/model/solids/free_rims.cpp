@@ -14,12 +14,12 @@ using Eigen::Vector3d;
 
 constexpr int kMostOpenEnds = 32;
 
-/// The edges that have more than one triangle.
-using Ways = std::map<std::uint32_t, std::vector<std::uint32_t>>;
+/// The edges that have more than one triangle: the places to which edges lead from a place.
+using EdgeGraph = std::map<std::uint32_t, std::vector<std::uint32_t>>;
 
-/// The shortest way from a place to the nearest place that lacks an edge; empty if there is none.
-std::vector<BoundaryEdge> shortestWay(const std::vector<Vector3d>& points, const Ways& ways, std::uint32_t from,
-                                      const std::map<std::uint32_t, int>& balance)
+/// The shortest path from a place to the nearest place that lacks an edge; empty if there is none.
+std::vector<BoundaryEdge> shortestPath(const std::vector<Vector3d>& points, const EdgeGraph& edges, std::uint32_t from,
+                                       const std::map<std::uint32_t, int>& balance)
 {
   struct Step
   {
@@ -42,12 +42,12 @@ std::vector<BoundaryEdge> shortestWay(const std::vector<Vector3d>& points, const
       continue;
     if (const auto end = balance.find(step.place); end != balance.end() && end->second > 0)
     {
-      std::vector<BoundaryEdge> way;
+      std::vector<BoundaryEdge> path;
       for (std::uint32_t place = step.place; place != from; place = before.at(place))
-        way.push_back({before.at(place), place});
-      return way;
+        path.push_back({before.at(place), place});
+      return path;
     }
-    if (const auto next = ways.find(step.place); next != ways.end())
+    if (const auto next = edges.find(step.place); next != edges.end())
       for (const std::uint32_t place : next->second)
         open.push({step.length + (points[place] - points[step.place]).norm(), place, step.place});
   }
@@ -58,7 +58,7 @@ std::vector<BoundaryEdge> shortestWay(const std::vector<Vector3d>& points, const
 std::vector<BoundaryEdge> freeRims(const std::vector<Vector3d>& points, const std::vector<Corners>& triangles)
 {
   std::vector<BoundaryEdge> rims;
-  Ways ways;
+  EdgeGraph edges;
   std::map<std::uint32_t, int> balance;  // of a place: edges that leave it minus edges that reach it
   visitEdges(
       edgeUses(triangles),
@@ -66,8 +66,8 @@ std::vector<BoundaryEdge> freeRims(const std::vector<Vector3d>& points, const st
       {
         if (last - first > 1)
         {
-          ways[first->low].push_back(first->high);
-          ways[first->high].push_back(first->low);
+          edges[first->low].push_back(first->high);
+          edges[first->high].push_back(first->low);
           return;
         }
         rims.push_back(first->upwards ? BoundaryEdge{first->low, first->high} : BoundaryEdge{first->high, first->low});
@@ -82,12 +82,12 @@ std::vector<BoundaryEdge> freeRims(const std::vector<Vector3d>& points, const st
   for (auto& [place, sum] : balance)
     while (sum < 0)
     {
-      const std::vector<BoundaryEdge> way = shortestWay(points, ways, place, balance);
-      if (way.empty())
+      const std::vector<BoundaryEdge> path = shortestPath(points, edges, place, balance);
+      if (path.empty())
         return {};
-      rims.insert(rims.end(), way.begin(), way.end());
+      rims.insert(rims.end(), path.begin(), path.end());
       ++sum;
-      --balance[way.front().to];
+      --balance[path.front().to];
     }
   return rims;
 }

@@ -20,8 +20,7 @@ namespace
 using Eigen::Vector3d;
 using Rim = std::vector<std::uint32_t>;
 
-constexpr std::size_t kLongestRim = 128;   // for the filling of least area: some milliseconds
-constexpr double kMostFillingSteps = 1e8;  // of all fillings of least area in a mesh: about a second
+constexpr std::size_t kLongestRim = 128;  // for the filling of least area: some milliseconds
 
 /// Walks along the reversed boundary edges. Whenever a place is reached for the second time, the walk since the first
 /// time is a loop. At a branch, the walk takes the target that is first in lexicographic order.
@@ -134,18 +133,21 @@ void fillBySmallestCorner(const std::vector<Vector3d>& points, FilledHole& hole)
 }
 }  // namespace
 
-std::vector<FilledHole> fillHoles(const std::vector<Vector3d>& points, const std::vector<BoundaryEdge>& boundary)
+std::vector<FilledHole> fillHoles(const std::vector<Vector3d>& points, const std::vector<BoundaryEdge>& boundary,
+                                  FillingBudget& budget)
 {
   std::vector<FilledHole> holes;
-  double steps = 0.0;
   for (Rim& loop : loopsOf(points, boundary))
   {
     FilledHole& hole = holes.emplace_back();
     hole.rim = std::move(loop);
     const auto length = static_cast<double>(hole.rim.size());
-    steps += length * length * length / 6.0;
-    if (hole.rim.size() <= kLongestRim && steps <= kMostFillingSteps)
+    const double steps = length * length * length / 6.0;
+    if (hole.rim.size() <= kLongestRim && steps <= budget.steps)
+    {
       fillByLeastArea(points, hole);
+      budget.steps -= steps;
+    }
     else
       fillBySmallestCorner(points, hole);
     for (const Corners& triangle : hole.triangles)

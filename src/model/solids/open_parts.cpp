@@ -51,6 +51,7 @@ std::vector<std::uint32_t> closeOpenParts(const std::vector<Corners>& triangles,
   std::vector<std::uint32_t> cycles(triangles.size(), 0);
   std::uint32_t known_cycles = 0;  // of the attempts before
   ChangedMesh mesh(solid.mesh, places);
+  FillingBudget budget;
   const std::vector<Closing> closings = attempts(diagonal, solid.mesh->solid);
   for (const Closing& closing : closings)
   {
@@ -58,7 +59,7 @@ std::vector<std::uint32_t> closeOpenParts(const std::vector<Corners>& triangles,
     for (const std::uint32_t t : open)
       part.push_back(triangles[t]);
     const bool is_last = &closing == &closings.back();
-    ClosedSurface surface = closeSurface(places.points, part, closing);
+    ClosedSurface surface = closeSurface(places.points, part, closing, budget);
     for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     {
       if (surface.roles[i] == TriangleRole::Surface)

@@ -8,7 +8,6 @@
 
 #include "model/solids/enclosure.h"
 #include "model/solids/free_rims.h"
-#include "model/solids/hole_filling.h"
 #include "model/solids/orientation.h"
 #include "model/solids/seams.h"
 
@@ -38,9 +37,11 @@ struct Cycle
 class SurfaceCloser
 {
  public:
-  SurfaceCloser(const std::vector<Vector3d>& points, const std::vector<Corners>& triangles, const Closing& closing)
+  SurfaceCloser(const std::vector<Vector3d>& points, const std::vector<Corners>& triangles, const Closing& closing,
+                FillingBudget& budget)
     : points_(points),
       closing_(closing),
+      budget_(budget),
       input_count_(triangles.size()),
       welded_(points, triangles, closing.tolerance, closing.welded)
   {
@@ -129,7 +130,7 @@ class SurfaceCloser
     const std::vector<BoundaryEdge> rims = freeRims(points_, once.triangles);
     if (rims.size() == once.boundary.size())
       return {};
-    std::vector<FilledHole> holes = fillHoles(points_, rims);
+    std::vector<FilledHole> holes = fillHoles(points_, rims, budget_);
     double area = 0.0;
     for (const FilledHole& hole : holes)
       area += hole.area;
@@ -154,7 +155,7 @@ class SurfaceCloser
     if (surface.even && !surface.boundary.empty())
       cycle.role = TriangleRole::Parity;
     else if (closing_.fills_holes)
-      cycle.holes = fillHoles(points_, surface.boundary);
+      cycle.holes = fillHoles(points_, surface.boundary, budget_);
     else if (!surface.boundary.empty())
     {
       cycle.share = std::numeric_limits<double>::infinity();
@@ -252,6 +253,7 @@ class SurfaceCloser
 
   const std::vector<Vector3d>& points_;
   const Closing& closing_;
+  FillingBudget& budget_;
   const std::size_t input_count_;
   WeldedTriangles welded_;
   std::uint32_t cycle_count_ = 0;
@@ -260,8 +262,8 @@ class SurfaceCloser
 }  // namespace
 
 ClosedSurface closeSurface(const std::vector<Vector3d>& points, const std::vector<Corners>& triangles,
-                           const Closing& closing)
+                           const Closing& closing, FillingBudget& budget)
 {
-  return SurfaceCloser(points, triangles, closing).take();
+  return SurfaceCloser(points, triangles, closing, budget).take();
 }
 }  // namespace gpu_planning_scene::core

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "gpu_planning_scene/solids.h"
+#include "model/solids/hole_filling.h"
 #include "model/solids/mesh_edges.h"
 #include "model/solids/welded_triangles.h"
 
@@ -31,7 +32,7 @@ struct Closing
   double most_share;  ///< a part remains a surface if the triangles that close it have more than this share of its area
 };
 
-/// Steps 2 and 3 of solidMeshOf for triangles of a mesh.
+/// Steps 2 and 3 of solidMeshOf for triangles of a mesh. `budget`: of the mesh.
 ClosedSurface closeSurface(const std::vector<Eigen::Vector3d>& points, const std::vector<Corners>& triangles,
-                           const Closing& closing);
+                           const Closing& closing, FillingBudget& budget);
 }  // namespace gpu_planning_scene::core
