@@ -1,5 +1,6 @@
 #include "model/solids/orientation.h"
 
+#include <array>
 #include <cstddef>
 #include <utility>
 
@@ -15,10 +16,18 @@ using Eigen::Vector3d;
 
 constexpr int kMostRounds = 20;  // of the descent; each round visits all patches
 
-struct Neighbour
+/// The triangles beside a triangle, at most one at each of its edges.
+struct Neighbours
 {
-  std::uint32_t triangle;
-  bool turned;  // the two triangles run along their edge in the same direction
+  std::array<std::uint32_t, 3> triangles;
+  std::array<bool, 3> turned;  // the two triangles run along their edge in the same direction
+  std::size_t count = 0;
+
+  void add(std::uint32_t triangle, bool is_turned)
+  {
+    triangles[count] = triangle;
+    turned[count++] = is_turned;
+  }
 };
 
 /// The patches of a surface and, for each triangle, whether it is turned against the first one of its patch.
@@ -32,7 +41,7 @@ struct Patches
 Patches findPatches(const std::vector<Vector3d>& points, const std::vector<Corners>& triangles,
                     const std::vector<EdgeUse>& uses)
 {
-  std::vector<std::vector<Neighbour>> neighbours(triangles.size());
+  std::vector<Neighbours> neighbours(triangles.size());
   visitEdges(uses,
              [&](auto first, auto last)
              {
@@ -40,8 +49,8 @@ Patches findPatches(const std::vector<Vector3d>& points, const std::vector<Corne
                  return;
                const EdgeUse& a = first[0];
                const EdgeUse& b = first[1];
-               neighbours[a.triangle].push_back({b.triangle, a.upwards == b.upwards});
-               neighbours[b.triangle].push_back({a.triangle, a.upwards == b.upwards});
+               neighbours[a.triangle].add(b.triangle, a.upwards == b.upwards);
+               neighbours[b.triangle].add(a.triangle, a.upwards == b.upwards);
              });
   constexpr std::uint32_t kNone = ~0U;
   Patches patches{std::vector<std::uint32_t>(triangles.size(), kNone), std::vector<bool>(triangles.size(), false)};
@@ -58,12 +67,12 @@ Patches findPatches(const std::vector<Vector3d>& points, const std::vector<Corne
     {
       const std::uint32_t t = members[next];
       kept += (patches.turned[t] ? -1.0 : 1.0) * areaOf(points, triangles[t]);
-      for (const Neighbour& neighbour : neighbours[t])
-        if (patches.of_triangle[neighbour.triangle] == kNone)
+      for (std::size_t i = 0; i < neighbours[t].count; ++i)
+        if (const std::uint32_t neighbour = neighbours[t].triangles[i]; patches.of_triangle[neighbour] == kNone)
         {
-          patches.of_triangle[neighbour.triangle] = patch;
-          patches.turned[neighbour.triangle] = patches.turned[t] != neighbour.turned;
-          members.push_back(neighbour.triangle);
+          patches.of_triangle[neighbour] = patch;
+          patches.turned[neighbour] = patches.turned[t] != neighbours[t].turned[i];
+          members.push_back(neighbour);
         }
     }
     if (kept < 0.0)

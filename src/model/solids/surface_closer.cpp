@@ -62,6 +62,8 @@ class SurfaceCloser
   /// A later attempt, which welds less, may need the collapsed triangles at parts that are still open.
   void keepCollapsed(bool keeps_all)
   {
+    if (welded_.collapsed().empty())
+      return;
     std::set<std::uint32_t> open_places;
     for (const std::uint32_t t : result_.open)
       open_places.insert(welded_[t].begin(), welded_[t].end());
@@ -92,7 +94,7 @@ class SurfaceCloser
   bool hasSimpleEdges(const Numbers& part) const
   {
     bool is_simple = std::all_of(
-        part.begin(), part.end(), [this](std::uint32_t t) { return welded_.copies(t).size() == 1; });
+        part.begin(), part.end(), [this](std::uint32_t t) { return !welded_.hasCopies(t); });
     visitEdges(edgeUses(welded_.cornersOf(part)),
                [&](auto first, auto last) { is_simple = is_simple && last - first <= 2; });
     return is_simple;
@@ -214,7 +216,8 @@ class SurfaceCloser
     {
       for (const std::uint32_t t : part)
         if (t < input_count_)
-          result_.open.insert(result_.open.end(), welded_.copies(t).begin(), welded_.copies(t).end());
+          for (const std::uint32_t copy : welded_.copies(t))
+            result_.open.push_back(copy);
       result_.parts.push_back(described(part, PartKind::Surface, cycle));
       return;
     }

@@ -1,7 +1,9 @@
 #include "model/solids/welded_triangles.h"
 
 #include <algorithm>
-#include <map>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
 #include <utility>
 
 #include "model/solids/disjoint_sets.h"
@@ -14,24 +16,44 @@ namespace
 {
 using Eigen::Vector3d;
 
-/// Each triangle once, in whatever direction.
-std::vector<Corners> withoutCopies(const std::vector<Corners>& triangles)
+constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+/// The numbers of the triangles with distinct corners. Triangles with the same corners, in whatever direction, follow
+/// each other in their order.
+Numbers sortedByCorners(const std::vector<Corners>& triangles)
 {
   std::vector<std::pair<Corners, std::uint32_t>> sorted;
   sorted.reserve(triangles.size());
-  for (const Corners& t : triangles)
-  {
-    sorted.emplace_back(t, static_cast<std::uint32_t>(sorted.size()));
-    std::sort(sorted.back().first.begin(), sorted.back().first.end());
-  }
+  for (std::uint32_t t = 0; t < triangles.size(); ++t)
+    if (hasDistinctCorners(triangles[t]))
+    {
+      sorted.emplace_back(triangles[t], t);
+      std::sort(sorted.back().first.begin(), sorted.back().first.end());
+    }
   std::sort(sorted.begin(), sorted.end());
-  std::vector<Corners> once;
-  for (std::size_t i = 0; i < sorted.size(); ++i)
-    if (i == 0 || sorted[i].first != sorted[i - 1].first)
-      once.push_back(triangles[sorted[i].second]);
-  return once;
+  Numbers numbers;
+  numbers.reserve(sorted.size());
+  for (const auto& [corners, t] : sorted)
+    numbers.push_back(t);
+  return numbers;
 }
 
+bool haveSameCorners(Corners a, Corners b)
+{
+  std::sort(a.begin(), a.end());
+  std::sort(b.begin(), b.end());
+  return a == b;
+}
+
+/// Each triangle once.
+std::vector<Corners> withoutCopies(const std::vector<Corners>& triangles)
+{
+  std::vector<Corners> once;
+  for (const std::uint32_t t : sortedByCorners(triangles))
+    if (once.empty() || !haveSameCorners(once.back(), triangles[t]))
+      once.push_back(triangles[t]);
+  return once;
+}
 }  // namespace
 
 WeldedTriangles::WeldedTriangles(const std::vector<Vector3d>& points, const std::vector<Corners>& triangles,
@@ -55,35 +77,41 @@ WeldedTriangles::WeldedTriangles(const std::vector<Vector3d>& points, const std:
   representative_ = weld(points_, used, tolerance);
   for (const Corners& t : triangles)
     welded_.push_back({representative_[t[0]], representative_[t[1]], representative_[t[2]]});
-  countCopies(triangles);
+  findCopies(triangles);
 }
 
-void WeldedTriangles::countCopies(const std::vector<Corners>& triangles)
+void WeldedTriangles::findCopies(const std::vector<Corners>& triangles)
 {
-  std::map<Corners, std::uint32_t> first_with;
-  copies_.resize(welded_.size());
-  for (std::uint32_t t = 0; t < welded_.size(); ++t)
+  next_copy_.resize(welded_.size());
+  std::iota(next_copy_.begin(), next_copy_.end(), 0U);
+  std::uint32_t before = kNone;
+  for (const std::uint32_t t : sortedByCorners(welded_))
   {
-    if (!hasDistinctCorners(welded_[t]))
-    {
-      if (hasDistinctCorners(triangles[t]))
-        collapsed_.push_back(t);
-      continue;
-    }
-    Corners sorted = welded_[t];
-    std::sort(sorted.begin(), sorted.end());
-    const auto [first, is_new] = first_with.try_emplace(sorted, t);
-    if (is_new)
+    if (before != kNone && haveSameCorners(welded_[before], welded_[t]))
+      next_copy_[before] = t;
+    else
       distinct_.push_back(t);
-    copies_[first->second].push_back(t);
+    before = t;
   }
+  std::sort(distinct_.begin(), distinct_.end());
+  for (std::uint32_t t = 0; t < welded_.size(); ++t)
+    if (!hasDistinctCorners(welded_[t]) && hasDistinctCorners(triangles[t]))
+      collapsed_.push_back(t);
+}
+
+Numbers WeldedTriangles::copies(std::uint32_t distinct) const
+{
+  Numbers copies = {distinct};
+  while (hasCopies(copies.back()))
+    copies.push_back(next_copy_[copies.back()]);
+  return copies;
 }
 
 std::uint32_t WeldedTriangles::add(const Corners& triangle)
 {
   const auto number = static_cast<std::uint32_t>(welded_.size());
   welded_.push_back(triangle);
-  copies_.push_back({number});
+  next_copy_.push_back(number);
   return number;
 }
 
@@ -115,7 +143,8 @@ std::vector<Numbers> WeldedTriangles::partsOf(const Numbers& triangles, Connecte
              });
   if (connected == ConnectedBy::CommonCorners)
   {
-    std::map<std::uint32_t, std::uint32_t> first_at;
+    std::unordered_map<std::uint32_t, std::uint32_t> first_at;
+    first_at.reserve(triangles.size());
     for (std::uint32_t i = 0; i < triangles.size(); ++i)
       for (const std::uint32_t place : welded_[triangles[i]])
         sets.unite(first_at.try_emplace(place, i).first->second, i);

@@ -42,7 +42,8 @@ class WeldedTriangles
   /// The first of each set of triangles with the same corners.
   const Numbers& distinct() const { return distinct_; }
   /// All triangles with the same corners as a distinct one, in their order.
-  const Numbers& copies(std::uint32_t distinct) const { return copies_[distinct]; }
+  Numbers copies(std::uint32_t distinct) const;
+  bool hasCopies(std::uint32_t distinct) const { return next_copy_[distinct] != distinct; }
   /// Triangles that have distinct corners no more.
   const Numbers& collapsed() const { return collapsed_; }
 
@@ -54,13 +55,13 @@ class WeldedTriangles
   std::vector<Numbers> partsOf(const Numbers& triangles, ConnectedBy connected) const;
 
  private:
-  void countCopies(const std::vector<Corners>& triangles);
+  void findCopies(const std::vector<Corners>& triangles);
 
   const std::vector<Eigen::Vector3d>& points_;
   Numbers representative_;  // of each place
   std::vector<Corners> welded_;
   Numbers distinct_;
-  std::vector<Numbers> copies_;
+  Numbers next_copy_;  // of each triangle: the next one with the same corners; itself: there is none
   Numbers collapsed_;
 };
 }  // namespace gpu_planning_scene::core
