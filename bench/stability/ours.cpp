@@ -133,7 +133,7 @@ Proof proofOf(const std::shared_ptr<const RobotModel>& robot, const Case& made, 
 {
   const Part part(&made, 1, origin);
   const CpuForest forest(*part.problem);
-  const LaneScene scene(robot, *part.problem, forest,
+  const LaneScene scene(*robot, *part.problem, forest,
                         std::make_shared<const RobotProofs>(ballsOf(*part.problem, forest)));
   LaneBuffers buffers;
   const lanes::Scratch scratch = buffers.of(scene);
