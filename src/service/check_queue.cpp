@@ -66,6 +66,8 @@ void CheckQueue::stop()
   for (std::thread& thread : threads)
     if (thread.joinable())
       thread.join();
+  worker_.close();
+  relief_.close();
 }
 
 void CheckQueue::run()

@@ -79,12 +79,12 @@ class CheckQueue;
 /// Checks states and motions for many clients at once. It has two queues, each with its own thread and checker. One
 /// queue merges small requests that have the same group and matrix. The other queue answers large requests one by one.
 /// So a small request never waits for a large one. A request of at most 16 states does not wait for a slow small one
-/// either: after 10 ms, another thread with its own checker answers it. A motion counts as many states as it has
-/// samples. Under MotionRule::Bound, it may need more checks than samples (MotionCheckerOptions::max_samples). Other
-/// small requests wait until all these checks are made. A request with a large matrix or with another scene than the
-/// newest counts as large, because a checker needs much time to take over such a matrix or scene. A queue takes the
-/// store's newest scene when it starts a batch. So each answer belongs to one snapshot: that of the request if it has
-/// one, otherwise one that is no older than the request.
+/// either: it is merged only with others of its kind, and after 10 ms, another thread with its own checker answers it.
+/// A motion counts as many states as it has samples. Under MotionRule::Bound, it may need more checks than samples
+/// (MotionCheckerOptions::max_samples). Other small requests wait until all these checks are made. A request with a
+/// large matrix or with another scene than the newest counts as large, because a checker needs much time to take over
+/// such a matrix or scene. A queue takes the store's newest scene when it starts a batch. So each answer belongs to one
+/// snapshot: that of the request if it has one, otherwise one that is no older than the request.
 class CheckServer
 {
  public:

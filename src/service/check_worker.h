@@ -33,6 +33,13 @@ class CheckWorker
   /// Whether the checker has the newest scene.
   bool isReady() const { return checked_ && store_.snapshot().scene == checked_; }
 
+  /// Drops the checker, so that no more proofs are made for it.
+  void close()
+  {
+    checker_.reset();
+    checked_.reset();
+  }
+
   /// Answers all requests, if need be with an error. If the batch fails, each of its requests is checked alone, so that
   /// only the wrong requests get an error.
   void answer(CheckBatch& batch);

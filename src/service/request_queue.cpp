@@ -20,12 +20,17 @@ constexpr std::chrono::milliseconds kSlowBatch{50};
 using Clock = std::chrono::steady_clock;
 constexpr Clock::time_point kNever = Clock::time_point::max();
 
+bool hasFewStates(const CheckRequest& request)
+{
+  return request.count <= kFewStates;
+}
+
 /// Whether the second thread may answer a request. Motions need an unknown number of checks, a report belongs to the
 /// checker of the other states, and a checker may need much time to take over another scene or matrix.
 bool isForSecondThread(const CheckRequest& request)
 {
   const CheckJob& job = request.job;
-  return request.count <= kFewStates && !job.motions && !job.report && !job.scene && !job.matrix;
+  return hasFewStates(request) && !job.motions && !job.report && !job.scene && !job.matrix;
 }
 
 bool isEqual(const std::shared_ptr<const AllowedCollisionMatrix>& a,
@@ -34,11 +39,13 @@ bool isEqual(const std::shared_ptr<const AllowedCollisionMatrix>& a,
   return a == b || (a && b && *a == *b);
 }
 
-/// Whether one batch can have the states of both jobs.
-bool canMerge(const CheckJob& a, const CheckJob& b)
+/// Whether one batch can have the states of both requests. A request of few states does not wait for many others.
+bool canMerge(const CheckRequest& first, const CheckRequest& second)
 {
-  return !a.report && !b.report && !a.motions && !b.motions && !a.scene && !b.scene && a.group == b.group &&
-         isEqual(a.matrix, b.matrix);
+  const CheckJob& a = first.job;
+  const CheckJob& b = second.job;
+  return hasFewStates(first) == hasFewStates(second) && !a.report && !b.report && !a.motions && !b.motions &&
+         !a.scene && !b.scene && a.group == b.group && isEqual(a.matrix, b.matrix);
 }
 }  // namespace
 
@@ -115,7 +122,7 @@ CheckBatch RequestQueue::take(std::size_t first, std::size_t max_states)
   {
     CheckRequest& request = waiting_[i];
     const bool joins =
-        i == first || (i > first && states + request.count <= max_states && canMerge(batch.front().job, request.job));
+        i == first || (i > first && states + request.count <= max_states && canMerge(batch.front(), request));
     states += joins ? request.count : 0;
     (joins ? batch : others).push_back(std::move(request));
   }

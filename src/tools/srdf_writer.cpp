@@ -29,7 +29,7 @@ std::string commentText(const GeneratedMatrix& matrix, const RobotModel& robot, 
        << "joints. " << matrix.remaining_pairs << " pairs of links remain to be checked. ";
   // A proof does not hold beyond the limits of this run, and joint_limits may widen them later.
   const std::vector<std::string> sources = describeLimitSources(robot);
-  text << "The limits are those of <limit>" << (sources.empty() ? "." : ", but:");
+  text << "The limits are those of <limit>" << (sources.empty() ? "." : ", with these exceptions:");
   for (const std::string& source : sources)
     text << "\n    " << source;
   text << " ";

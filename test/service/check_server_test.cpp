@@ -133,6 +133,25 @@ TEST_F(Server, ABatchIsNoLargerThanItsBound)
   EXPECT_EQ((std::vector<std::size_t>{1, 3 * kSmall, kSmall}), gate.batches());
 }
 
+TEST_F(Server, ARequestOfFewStatesIsNotMergedWithOneOfMany)
+{
+  constexpr std::size_t kMany = 20;
+  CheckServerOptions larger = options();
+  larger.small_request = kMany;
+  CheckServer of_larger(store, checkersAt(gate), larger);
+  gate.close();
+  const std::size_t checks = gate.batches().size();
+  std::vector<std::future<CheckAnswer>> answers;
+  answers.push_back(of_larger.submit(job(1)));
+  gate.waitForChecks(checks + 1);
+  for (const std::size_t states : {std::size_t{1}, kMany, std::size_t{2}})
+    answers.push_back(of_larger.submit(job(states)));
+  gate.open();
+  for (auto& answer : answers)
+    answer.get();
+  EXPECT_EQ((std::vector<std::size_t>{1, 3, kMany}), gate.batches());
+}
+
 TEST_F(Server, RequestsOfOtherGroupsOrMatricesAreBatchesOfTheirOwn)
 {
   std::future<CheckAnswer> first = blocked();

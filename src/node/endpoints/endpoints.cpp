@@ -1,7 +1,19 @@
 #include "node/endpoints/endpoints.h"
 
+#include <boost/make_shared.hpp>
+
 namespace gpu_planning_scene::core
 {
+namespace
+{
+/// Wakes a thread that waits for a callback.
+class WakeUp : public ros::CallbackInterface
+{
+ public:
+  CallResult call() override { return Success; }
+};
+}  // namespace
+
 Endpoints::Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, std::size_t threads,
                      Diagnostics& diagnostics, Refusal refusal)
   : node_(node), own_(own), diagnostics_(diagnostics), refusal_(std::move(refusal))
@@ -33,6 +45,8 @@ void Endpoints::close()
 void Endpoints::stop()
 {
   close();
+  for (std::size_t i = 0; i < threads_.size(); ++i)
+    queue_.addCallback(boost::make_shared<WakeUp>());
   for (std::thread& thread : threads_)
     thread.join();
   threads_.clear();

@@ -31,6 +31,8 @@ constexpr double kBallMargin = 1e-8;  // metres: exceeds the rounding error of d
 // The tests of balls and points in a box of joint values take as long as so many steps.
 constexpr std::uint64_t kStepsOfBox = 200;
 
+constexpr unsigned kPointsPerStopTest = 256;
+
 class TableMaker
 {
  public:
@@ -183,11 +185,13 @@ class TableMaker
 
   /// Whether a point of `body` is inside the solid of `other` for all joint values within the travel. `pose`: of `body`
   /// in the frame of `other`, for the middle values.
-  static bool penetrates(const TableInstance& body, const TableInstance& other, const Isometry3d& pose,
-                         const std::vector<JointAxis>& axes)
+  bool penetrates(const TableInstance& body, const TableInstance& other, const Isometry3d& pose,
+                  const std::vector<JointAxis>& axes) const
   {
+    StopTest end_if_stopped(stopped_, kPointsPerStopTest);
     const auto is_inside = [&](const Vector3d& point)
     {
+      end_if_stopped();
       const double depth = other.depth->at(pose * point);
       return depth > kBallMargin && depth > displacementBound(axes, pose * point, 0.0) + kBallMargin;
     };
