@@ -171,12 +171,13 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   timers.stop();
   // roscpp writes the answers to their connections on its own threads, and drops unwritten answers when it shuts down,
   // so it gets time here. Requests that arrive meanwhile are rejected too.
-  for (int i = 0; i < 10; ++i)
+  bool has_answered = true;
+  for (int i = 0; i < 10 && has_answered; ++i)
   {
     ros::WallDuration(0.05).sleep();
+    has_answered = moveit.refuseWaiting();
     for (Endpoints* some : endpoints)
-      some->refuseWaiting();
-    moveit.refuseWaiting();
+      has_answered = some->refuseWaiting() || has_answered;
   }
 }
 }  // namespace gpu_planning_scene::core

@@ -6,6 +6,9 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+// roscpp writes answers on threads of its own.
+constexpr std::chrono::milliseconds kTimeToWrite{500};
+
 /// Wakes a thread that waits for a callback.
 class WakeUp : public ros::CallbackInterface
 {
@@ -53,9 +56,10 @@ void Endpoints::stop()
   refuseWaiting();
 }
 
-void Endpoints::refuseWaiting()
+bool Endpoints::refuseWaiting()
 {
   queue_.callAvailable();
+  return std::chrono::steady_clock::now() < last_answer_.load() + kTimeToWrite;
 }
 
 std::string Endpoints::topicName(const std::string& name) const

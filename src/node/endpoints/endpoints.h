@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <string>
 #include <thread>
@@ -58,6 +59,7 @@ class Endpoints
         request.fault = errorOf([&] { response = answer(request.message); });
       if (request.fault.empty() && refusal_)
         request.fault = refusal_();  // the reason may have come while the request waited
+      last_answer_ = std::chrono::steady_clock::now();
       return close(name, request.fault, response);
     };
     ros::AdvertiseServiceOptions options = boundedService<Service>(own_.resolveName(name), handle, &queue_);
@@ -105,8 +107,9 @@ class Endpoints
   void close();
   /// Calls close(), waits for running callbacks, and rejects the requests and messages that wait.
   void stop();
-  /// After stop(): rejects the requests and messages that have arrived since then.
-  void refuseWaiting();
+  /// After stop(): rejects the requests and messages that have arrived since then. Returns whether a request got its
+  /// answer in the last half second: roscpp may not have written this answer yet.
+  bool refuseWaiting();
 
  private:
   /// Reports a fault in the response. Returns false if the service call fails.
@@ -141,6 +144,7 @@ class Endpoints
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Subscriber> topics_;
   std::atomic<bool> closed_{false};
+  std::atomic<std::chrono::steady_clock::time_point> last_answer_{std::chrono::steady_clock::time_point::min()};
   std::vector<std::thread> threads_;
 };
 }  // namespace gpu_planning_scene::core

@@ -77,10 +77,9 @@ void MoveItInterface::stop()
     impl_->names->stop();
 }
 
-void MoveItInterface::refuseWaiting()
+bool MoveItInterface::refuseWaiting()
 {
-  impl_->requests.refuseWaiting();
-  if (impl_->names)
-    impl_->names->refuseWaiting();
+  const bool has_answered = impl_->requests.refuseWaiting();
+  return (impl_->names && impl_->names->refuseWaiting()) || has_answered;
 }
 }  // namespace gpu_planning_scene::core

@@ -43,7 +43,7 @@ class MoveItInterface
   // As the functions of Endpoints.
   void close();
   void stop();
-  void refuseWaiting();
+  bool refuseWaiting();
 
  private:
   struct Impl;

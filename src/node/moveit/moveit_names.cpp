@@ -153,9 +153,9 @@ void MoveItNames::stop()
   checks_.stop();
 }
 
-void MoveItNames::refuseWaiting()
+bool MoveItNames::refuseWaiting()
 {
-  scenes_.refuseWaiting();
-  checks_.refuseWaiting();
+  const bool has_answered = scenes_.refuseWaiting();
+  return checks_.refuseWaiting() || has_answered;
 }
 }  // namespace gpu_planning_scene::core

@@ -44,7 +44,7 @@ class MoveItNames
 
   void close();
   void stop();
-  void refuseWaiting();
+  bool refuseWaiting();
 
  private:
   MoveItScenePublisher publisher_;

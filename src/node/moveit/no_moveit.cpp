@@ -34,5 +34,8 @@ void MoveItInterface::close() {}
 
 void MoveItInterface::stop() {}
 
-void MoveItInterface::refuseWaiting() {}
+bool MoveItInterface::refuseWaiting()
+{
+  return false;
+}
 }  // namespace gpu_planning_scene::core
