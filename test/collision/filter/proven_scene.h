@@ -35,7 +35,8 @@ inline ProvenScene prove(const TestScene& scene)
   const auto publish = [&made](RobotProofs proofs)
   { made.proofs = std::make_shared<const RobotProofs>(std::move(proofs)); };
   prover.prove(*scene.scene->robot, *made.problem, made.forest.forest(), ProofCache(), publish, [] { return false; });
-  made.lanes = std::make_unique<const LaneScene>(*scene.scene->robot, *made.problem, *made.forest.forest(), made.proofs);
+  made.lanes =
+      std::make_unique<const LaneScene>(*scene.scene->robot, *made.problem, *made.forest.forest(), made.proofs);
   return made;
 }
 
