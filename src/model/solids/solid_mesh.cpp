@@ -166,7 +166,7 @@ std::shared_ptr<const SolidMesh> solidMeshOf(const std::shared_ptr<const Mesh>& 
 {
   if (std::shared_ptr<const SolidMesh> known = solidRegistry().find(mesh))
     return known;
-  const auto solid = std::make_shared<const SolidMesh>(makeSolidMesh(mesh));
+  auto solid = std::make_shared<const SolidMesh>(makeSolidMesh(mesh));
   solidRegistry().add(mesh, solid);
   return solid;
 }
