@@ -99,9 +99,9 @@ std::string nearKey(const std::string& word, const std::vector<std::string>& kno
   static const std::vector<std::string> common = {"name",  "names", "type",  "robot",  "model",   "scene",
                                                   "state", "color", "fixed", "colors", "default", "values"};
   constexpr std::size_t kShortestPart = 4;
-  if (const std::string same = sameKey(word, known); !same.empty())
+  if (std::string same = sameKey(word, known); !same.empty())
     return same;
-  if (const std::string nearest = nearestSpelling(word, known); !nearest.empty())
+  if (std::string nearest = nearestSpelling(word, known); !nearest.empty())
     return nearest;
   const std::string letters = plainKey(word);
   if (letters.size() >= kShortestPart && !contains(common, letters))
@@ -164,14 +164,14 @@ std::string contentOf(const YamlValue& value)
     return "";
   if (value.kind() == YamlValue::Kind::Sequence)
     for (const YamlValue& item : value.items())
-      if (const std::string content = contentOf(item); !content.empty())
+      if (std::string content = contentOf(item); !content.empty())
         return content;
   if (value.kind() == YamlValue::Kind::Map)
     for (const auto& [key, member] : value.members())
     {
       if (contains(contents, key))
         return key;
-      if (const std::string content = contentOf(member); !content.empty())
+      if (std::string content = contentOf(member); !content.empty())
         return content;
     }
   return "";
