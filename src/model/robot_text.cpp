@@ -12,15 +12,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// "elbow (-1.57 to 1.57)"; the name alone if there are no limits. The limits have so many digits that a request may
-/// use them as values.
-std::string textOf(const Variable& variable)
-{
-  if (!variable.bounded)
-    return variable.name;
-  return variable.name + " (" + numberText(variable.lower) + " to " + numberText(variable.upper) + ")";
-}
-
 template <typename Item, typename Text>
 void addLine(std::vector<std::string>& lines, const std::string& heading, const std::vector<Item>& items, Text text)
 {
@@ -32,12 +23,19 @@ void addLine(std::vector<std::string>& lines, const std::string& heading, const 
 }
 }  // namespace
 
+std::string describeVariable(const Variable& variable)
+{
+  if (!variable.bounded)
+    return variable.name;
+  return variable.name + " (" + numberText(variable.lower) + " to " + numberText(variable.upper) + ")";
+}
+
 std::vector<std::string> describeLimitSources(const RobotModel& robot)
 {
   std::map<std::string, std::vector<std::string>> limited;  // by source
   for (const Variable& variable : robot.variables())
     if (!variable.limits_source.empty())
-      limited[variable.limits_source].push_back(textOf(variable));
+      limited[variable.limits_source].push_back(describeVariable(variable));
   std::vector<std::string> lines;
   for (const auto& [source, variables] : limited)
     lines.push_back(onOneLine("limits from " + source + ": " + nameList(variables)));
@@ -47,7 +45,7 @@ std::vector<std::string> describeLimitSources(const RobotModel& robot)
 std::vector<std::string> describeRobot(const RobotModel& robot)
 {
   std::vector<std::string> lines;
-  addLine(lines, "variables, with their limits in radians or metres: ", robot.variables(), textOf);
+  addLine(lines, "variables, with their limits in radians or metres: ", robot.variables(), describeVariable);
   addLine(
       lines, "groups: ", robot.groups(), [](const Group& group) { return group.name; });
   addLine(lines, "named states: ", robot.namedStates(),

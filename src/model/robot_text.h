@@ -7,6 +7,10 @@
 
 namespace gpu_planning_scene::core
 {
+/// "elbow (-1.57 to 1.57)"; the name alone if there are no limits. The limits have so many digits that a request may
+/// use them as values.
+std::string describeVariable(const Variable& variable);
+
 /// A line for each source of limits other than the URDF's <limit>, with the variables that have their limits from it.
 std::vector<std::string> describeLimitSources(const RobotModel& robot);
 

@@ -86,6 +86,38 @@ TEST(SoftLimits, ThatLeaveNoPositionAreAnError)
       errorOf([] { robotOf(chainUrdf(softLimits("soft_lower_limit=\"3\" soft_upper_limit=\"4\""))); }));
 }
 
+TEST(PositionLimits, ThatAreWiderThanThoseOfProofsAreAWarning)
+{
+  const auto warningsOf = [](double upper, const std::string& reason, const std::string& comment)
+  {
+    RobotModelOptions options;
+    PositionLimits limits;
+    limits.variable = "slide";
+    limits.min_position = -1.0;
+    limits.max_position = upper;
+    options.position_limits = {limits};
+    options.srdf_name = "my.srdf";
+    std::vector<std::string> warnings;
+    RobotModel::fromXml(
+        "<robot name='r'><link name='rail'/><link name='cart'/><joint name='slide' type='prismatic'>"
+        "<parent link='rail'/><child link='cart'/><axis xyz='1 0 0'/>"
+        "<limit lower='-2' upper='2' effort='1' velocity='1'/></joint></robot>",
+        "<robot name='r'>" + comment + "<disable_collisions link1='rail' link2='cart' reason='" + reason +
+            "'/></robot>",
+        options, &warnings);
+    return warnings;
+  };
+  const std::vector<std::string> warnings = warningsOf(9.0, "Never", "");
+  ASSERT_EQ(1u, warnings.size());
+  EXPECT_EQ(0u, warnings[0].find("my.srdf: 1 pairs of links are disabled with the reason Never, but limits are wider "
+                                 "than in the URDF: slide (-1 to 9). "))
+      << warnings[0];
+  EXPECT_TRUE(warningsOf(1.0, "Never", "").empty()) << "narrower";
+  EXPECT_TRUE(warningsOf(9.0, "Adjacent", "").empty()) << "not a proof";
+  EXPECT_TRUE(warningsOf(9.0, "Never", "<!-- limits from my.yaml: slide (-1 to 9) -->").empty()) << "proven for them";
+  EXPECT_EQ(1u, warningsOf(10.0, "Never", "<!-- limits from my.yaml: slide (-1 to 9) -->").size()) << "wider still";
+}
+
 TEST(PositionLimits, ReplaceTheLimitsOfTheUrdfByNarrowerAndByWiderOnes)
 {
   const auto robot = limited({{"slide", 0.25, 0.5, "limits.yaml"}, {"elbow", -3.0, 3.0, "limits.yaml"}});

@@ -58,7 +58,8 @@ std::string whyWithoutLimits(const Owner& owner)
   return "";
 }
 
-void setLimits(const PositionLimits& limits, Variable& variable)
+/// Returns whether the limits are wider than before.
+bool setLimits(const PositionLimits& limits, Variable& variable)
 {
   const std::string where = limits.source + ": '" + variable.name + "'";
   for (const std::optional<double>& limit : {limits.min_position, limits.max_position})
@@ -76,11 +77,13 @@ void setLimits(const PositionLimits& limits, Variable& variable)
                      ? ""
                      : " (one of them is that of " +
                            (variable.limits_source.empty() ? "the URDF's <limit>" : variable.limits_source) + ")"));
+  const bool are_wider = variable.bounded && (lower < variable.lower || upper > variable.upper);
   variable.bounded = true;
   variable.lower = lower;
   variable.upper = upper;
   variable.limits_source =
       (replaces_both || variable.limits_source.empty() ? "" : variable.limits_source + " and ") + limits.source;
+  return are_wider;
 }
 }  // namespace
 
@@ -132,7 +135,11 @@ void applyPositionLimits(const std::vector<PositionLimits>& limits, RobotTree& t
       warnings.push_back(entry.source + ": the position limits of '" + entry.variable + "' are not used, because it " +
                          reason);
     else
-      setLimits(entry, tree.variables[static_cast<std::size_t>(owner.joint->first_variable + owner.part)]);
+    {
+      const int variable = owner.joint->first_variable + owner.part;
+      if (setLimits(entry, tree.variables[static_cast<std::size_t>(variable)]))
+        tree.widened.push_back(variable);
+    }
   }
   if (!unknown.empty())
     warnings.push_back(limits.front().source + ": position limits are not used, because the robot does not have the " +

@@ -13,6 +13,8 @@
 #include "model/description/tree_builder.h"
 #include "model/description/urdf_reader.h"
 #include "model/kinematics.h"
+#include "model/robot_text.h"
+#include "model/text/name_list.h"
 #include "model/text/one_line.h"
 #include "model/text/utf8.h"
 
@@ -36,11 +38,15 @@ class RobotModelBuilder
     RobotTree tree = buildTree(urdf, virtual_joint, options_, warnings_);
     model_->name_ = urdf.model->getName();
     model_->planning_frame_ = virtual_joint == nullptr ? root : virtual_joint->parent_frame;
+    const std::vector<int> widened = tree.widened;
     take(std::move(tree));
 
     model_->srdf_collisions_.has_srdf = has_srdf;
     if (has_srdf)
+    {
       addSrdf(srdf);
+      warnOfProofs(widened, srdf_text);
+    }
     return model_;
   }
 
@@ -120,6 +126,26 @@ class RobotModelBuilder
     }
     model_->groups_ = resolveGroups(srdf.groups, *model_, ignored_joints_, warnings_);
     model_->named_states_ = resolveNamedStates(srdf.named_states, *model_, ignored_joints_, warnings_);
+  }
+
+  /// A pair with the reason Never was found free within the limits of the URDF, or within those that a comment of the
+  /// SRDF names (srdf_writer.cpp).
+  void warnOfProofs(const std::vector<int>& widened, const std::string& srdf)
+  {
+    const std::vector<LinkPair>& disabled = model_->srdf_collisions_.disabled;
+    const auto never =
+        std::count_if(disabled.begin(), disabled.end(), [](const LinkPair& pair) { return pair.reason == "Never"; });
+    std::vector<std::string> unproven;
+    for (const int number : widened)
+      if (const std::string limits = describeVariable(model_->variables_[static_cast<std::size_t>(number)]);
+          srdf.find(limits) == std::string::npos)
+        unproven.push_back(limits);
+    if (never > 0 && !unproven.empty())
+      warnings_.push_back(
+          options_.srdf_name + ": " + std::to_string(never) + " pairs of links are disabled with the " +
+          "reason Never, but limits are wider than in the URDF: " + nameList(unproven) +
+          ". There, these pairs may collide and are not checked: run generate_acm with --planning and " +
+          "these limits");
   }
 
   int knownLink(const std::string& link, const std::string& where)

@@ -16,6 +16,7 @@ struct RobotTree
   std::vector<Link> links;
   std::vector<Joint> joints;
   std::vector<Variable> variables;
+  std::vector<int> widened;  ///< the variables that have wider limits than in the URDF
 };
 
 /// Sets Variable::largest so that no joint, also no mimic joint, moves by more than kLargestLength, and no angle
