@@ -170,7 +170,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
     some->stop();
   timers.stop();
   // roscpp writes the answers to their connections on its own threads, and drops unwritten answers when it shuts down,
-  // so it gets time here. Requests that arrive meanwhile are rejected too.
+  // so it gets time here, unless there are none. Requests that arrive meanwhile are rejected too.
   bool has_answered = true;
   for (int i = 0; i < 10 && has_answered; ++i)
   {

@@ -54,9 +54,14 @@ std::future<CheckAnswer> CheckQueue::submit(CheckJob job, std::size_t count)
   return answer;
 }
 
-void CheckQueue::stop()
+void CheckQueue::refuse()
 {
   requests_.stop();
+}
+
+void CheckQueue::stop()
+{
+  refuse();
   std::array<std::thread, 2> threads;
   {
     const std::lock_guard<std::mutex> lock(mutex_);

@@ -28,6 +28,9 @@ class CheckQueue
   /// Makes the checker before the first request arrives. Throws the errors of `make_checker`.
   void open() { worker_.open(); }
   std::future<CheckAnswer> submit(CheckJob job, std::size_t count);
+  /// Rejects queued and later requests, and ends the running one soon. Does not wait.
+  void refuse();
+  /// Calls refuse(), waits for the running batch, and drops the checkers. One caller at a time.
   void stop();
   CheckStatistics statistics() const;
 
@@ -37,8 +40,9 @@ class CheckQueue
   void count(const CheckStatistics& answered);
 
   RequestQueue requests_;
-  CheckWorker worker_;  // used by the first thread only. open() uses it too, before the thread starts
-  CheckWorker relief_;  // used by the second thread only
+  // A thread each; open() uses the first one before the threads start, and stop() both of them after they have ended.
+  CheckWorker worker_;
+  CheckWorker relief_;
   const bool has_relief_;
 
   mutable std::mutex mutex_;  // guards the members below

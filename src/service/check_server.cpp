@@ -71,6 +71,8 @@ std::future<CheckAnswer> CheckServer::submit(CheckJob job)
 
 void CheckServer::stop()
 {
+  small_->refuse();
+  large_->refuse();
   small_->stop();
   large_->stop();
 }

@@ -89,7 +89,15 @@ CheckWorker::CheckWorker(const SceneStore& store, const RequestQueue& queue, Che
 void CheckWorker::prepare()
 {
   takeScene({});
-  checker_->check(checked_->robot->defaultState().data(), 1, "");
+  try
+  {
+    checker_->check(checked_->robot->defaultState().data(), 1, "");
+  }
+  catch (...)
+  {
+    close();
+    throw;
+  }
 }
 
 void CheckWorker::answer(CheckBatch& batch)

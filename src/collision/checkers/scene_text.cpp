@@ -187,9 +187,11 @@ std::vector<std::string> warningsOfScene(const PlanningScene& scene, const Scene
     const auto links = static_cast<std::int32_t>(scene.robot->links().size());
     const bool are_links = std::all_of(other.begin(), other.end(),
                                        [links](const BodyPair& pair) { return pair[0] < links && pair[1] < links; });
+    const SrdfCollisions& srdf = scene.robot->srdfCollisions();
+    // If OLD disables pairs at all, generate_acm keeps the pairs that it checks.
+    const std::string old = !srdf.has_srdf ? "" : srdf.disabled.empty() ? "--srdf OLD " : "--srdf OLD --drop-checked ";
     lines.push_back(counted(other.size(), "pair") + found + pairList(scene, other) +
-                    (are_links ? std::string("; these are links of the robot: generate_acm ") +
-                                     (scene.robot->srdfCollisions().has_srdf ? "--srdf OLD " : "") +
+                    (are_links ? "; these are links of the robot: generate_acm " + old +
                                      "--out NEW makes an SRDF that allows the pairs that always collide"
                                : std::string("; move these bodies apart")) +
                     remedyOfRigid(scene, other));

@@ -6,7 +6,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// roscpp writes answers on threads of its own.
+// An answer is written within this time, on a thread of roscpp.
 constexpr std::chrono::milliseconds kTimeToWrite{500};
 
 /// Wakes a thread that waits for a callback.
@@ -40,7 +40,8 @@ Endpoints::~Endpoints()
 
 void Endpoints::close()
 {
-  closed_ = true;
+  if (!closed_.exchange(true))
+    closed_at_ = std::chrono::steady_clock::now();
 }
 
 /// Services and topics stay up until the destructor: to take them down drops connections, to which roscpp may still be
@@ -48,7 +49,7 @@ void Endpoints::close()
 void Endpoints::stop()
 {
   close();
-  for (std::size_t i = 0; i < threads_.size(); ++i)
+  for (std::size_t i = 0; i < threads_.size(); ++i)  // a callback wakes one thread
     queue_.addCallback(boost::make_shared<WakeUp>());
   for (std::thread& thread : threads_)
     thread.join();
@@ -59,7 +60,7 @@ void Endpoints::stop()
 bool Endpoints::refuseWaiting()
 {
   queue_.callAvailable();
-  return std::chrono::steady_clock::now() < last_answer_.load() + kTimeToWrite;
+  return closed_at_ < last_answer_.load() + kTimeToWrite;
 }
 
 std::string Endpoints::topicName(const std::string& name) const

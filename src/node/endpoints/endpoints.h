@@ -108,7 +108,7 @@ class Endpoints
   /// Calls close(), waits for running callbacks, and rejects the requests and messages that wait.
   void stop();
   /// After stop(): rejects the requests and messages that have arrived since then. Returns whether a request got its
-  /// answer in the last half second: roscpp may not have written this answer yet.
+  /// answer after close() or shortly before: roscpp may not have written this answer yet.
   bool refuseWaiting();
 
  private:
@@ -144,6 +144,7 @@ class Endpoints
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Subscriber> topics_;
   std::atomic<bool> closed_{false};
+  std::chrono::steady_clock::time_point closed_at_;
   std::atomic<std::chrono::steady_clock::time_point> last_answer_{std::chrono::steady_clock::time_point::min()};
   std::vector<std::thread> threads_;
 };
