@@ -27,8 +27,8 @@ using CheckBatch = std::deque<CheckRequest>;
 std::exception_ptr shuttingDown();
 
 /// The queued check requests. Two threads take requests: the first one takes all kinds of them, in their order; the
-/// second one takes requests of few states that have waited too long, because nobody knows before how long a batch of
-/// the first thread takes. Thread-safe.
+/// second one takes requests of few states that have waited too long, because it is not known in advance how long a
+/// batch of the first thread takes. Thread-safe.
 class RequestQueue
 {
  public:
@@ -46,10 +46,9 @@ class RequestQueue
   CheckBatch takeOldest();
 
   /// For the second thread: waits until a request of few states has waited too long, and takes it and those that can be
-  /// merged with it. It takes none while its checker is not ready, because until then, the first thread may answer it
-  /// sooner. `is_ready`: whether the checker has the newest scene; must not call the queue. The answer is an empty
-  /// batch if the checker is not ready and should be: a request or a batch has taken long, and `rest` is over. No
-  /// value: the queue stops.
+  /// merged with it. Returns an empty batch if the checker should first be prepared: a request or a batch takes long,
+  /// and the checker is not ready, so the first thread may answer the request sooner. Returns nothing before `rest`. No
+  /// value: the queue stops. `is_ready`: whether the checker has the newest scene; must not call the queue.
   std::optional<CheckBatch> takeOverdue(const std::function<bool()>& is_ready,
                                         std::chrono::steady_clock::time_point rest);
 

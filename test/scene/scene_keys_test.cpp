@@ -359,7 +359,8 @@ TEST_F(SceneKeys, OfOtherFormatsForPosesAndSizesAreErrors)
 TEST_F(SceneKeys, AboutSizesDistancesAndUncheckedPairsAreErrors)
 {
   for (const std::string key : {"robot_padding", "default_robot_padding", "default_attached_padding", "safety_margin",
-                                "minClearance", "inflation", "acm", "disable_collisions", "disabled", "units"})
+                                "minClearance", "inflation", "min_distance", "ignored_pairs", "enlarge_links", "acm",
+                                "disable_collisions", "disabled", "units"})
     EXPECT_EQ(0u, errorOfScene("name: hall\n" + key + ": {cart: 0.1}").find("scene.yaml:2: unknown key '" + key + "'"))
         << key;
   EXPECT_EQ(0u, errorOfScene("world: {collision_objects: [{id: a, meshes: [{resource: a.stl, scaling: [2, 2, 2]}]}]}")

@@ -143,9 +143,10 @@ bool isPlacementOfOtherFormats(const std::string& word)
 /// parameters is.
 bool changesChecks(const std::string& word)
 {
-  static const std::vector<std::string> parts = {"padding",   "margin", "clearance", "inflat",
-                                                 "collision", "disabl", "scal"};
-  static const std::vector<std::string> words = {"acm", "unit", "units"};
+  static const std::vector<std::string> parts = {"padding", "margin", "clearance", "inflat", "collision",
+                                                 "disabl",  "scal",   "distance",  "safety", "ignor",
+                                                 "skip",    "exclu",  "enlarg",    "expand", "touch"};
+  static const std::vector<std::string> words = {"acm", "unit", "units", "buffer"};
   const std::string letters = plainKey(word);
   return contains(words, letters) ||
          std::any_of(parts.begin(), parts.end(),
@@ -220,8 +221,9 @@ void checkKeys(const YamlValue& map, SceneMap kind, std::vector<std::string>* wa
     if (const std::string content = contentOf(value); !content.empty())
       value.failAtKey("unknown key '" + key + "' in " + keys.name + ": its '" + content + "' would be lost; " +
                       keys.name + " has " + keyList(keys.known));
-    if (changesChecks(key))
-      value.failAtKey("unknown key '" + key + "' in " + keys.name + "; it has " + keyList(keys.known));
+    if (changesChecks(key) && !value.hasAnchor())
+      value.failAtKey("unknown key '" + key + "' in " + keys.name + ": it seems to change what is checked; " +
+                      keys.name + " has " + keyList(keys.known));
     if (warnings != nullptr)
       warnings->push_back(value.keyWhere() + ": unknown key '" + key + "' is not used");
   }

@@ -11,7 +11,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// Bounds for a frame of the lane kernel, in metres.
+/// Bounds for a frame of the lane kernel. Lengths are in metres.
 struct LaneFrameError
 {
   double step = 0.0;              ///< largest distance of the frame's origin from the origin of its parent
