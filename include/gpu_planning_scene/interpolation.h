@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "gpu_planning_scene/state_checker.h"
@@ -39,4 +40,10 @@ double shortestAngularDistance(double from, double to);
 /// equals `from` or `to` bit by bit. If an angle differs by more than half a turn between `from` and `to`, its value
 /// jumps by whole turns as `fraction` reaches 1. The robot itself does not jump.
 void interpolate(const RobotModel& robot, const double* from, const double* to, double fraction, double* state);
+
+/// The first of `count` straight motions in which a joint with Joint::diff_drive moves sideways or turns while it
+/// drives, as a message; empty: there is none. MotionChecker and the trajectory checks do not look at it. `starts`,
+/// `ends`: as for MotionChecker::check. `what`: what the message calls a motion.
+std::string sidewaysMotion(const RobotModel& robot, const double* starts, const double* ends, std::size_t count,
+                           const std::string& what);
 }  // namespace gpu_planning_scene::core

@@ -78,6 +78,8 @@ struct Joint
   double offset = 0.0;
   bool mimic = false;
   bool passive = false;  ///< listed as a passive_joint of the SRDF
+  /// A planar joint with the SRDF's property `motion_model` diff_drive: it turns, and drives along its heading.
+  bool diff_drive = false;
 };
 
 struct Link

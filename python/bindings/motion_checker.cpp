@@ -9,6 +9,7 @@
 #include "bindings/named_rows.h"
 #include "bindings/state_checker.h"
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/interpolation.h"
 
 namespace gpu_planning_scene::python
 {
@@ -66,6 +67,9 @@ MotionVerdicts checkMotions(const SharedMotionChecker& checker, const py::object
                       " ends; give one end for each start");
   const double* from_data = from.data();
   const double* to_data = to.data();
+  if (const std::string sideways = core::sidewaysMotion(*checker.robot, from_data, to_data, from.count, "motion");
+      !sideways.empty())
+    throw core::Error(sideways);
   Interrupt interrupt;
   auto verdicts = withoutLock(
       [&]

@@ -16,6 +16,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "model/math_constants.h"
+#include "model/text/number_text.h"
 
 // The joints with limits share one space; each other joint has a space of its own. The default projection has the first
 // joints with limits, because joints near the root move the robot the most. Planners with a grid of projections use it
@@ -91,7 +92,8 @@ std::vector<std::pair<double, double>> rangesOf(const RobotModel& robot, const J
   return ranges;
 }
 
-ob::RealVectorBounds translationBounds(const Joint& joint, const std::vector<std::pair<double, double>>& ranges)
+ob::RealVectorBounds translationBounds(const RobotModel& robot, const Joint& joint,
+                                       const std::vector<std::pair<double, double>>& ranges)
 {
   const int count = translationCount(joint.type);
   ob::RealVectorBounds bounds(count);
@@ -99,8 +101,10 @@ ob::RealVectorBounds translationBounds(const Joint& joint, const std::vector<std
   {
     const auto [lower, upper] = ranges[static_cast<std::size_t>(i)];
     if (!(upper - lower >= kLeastRange))
-      throw Error("joint '" + joint.name + "' cannot be planned for: its translations have no range; set " +
-                  "unbounded_translation above 0, or give a workspace that its limits meet");
+      throw Error("joint '" + joint.name + "' cannot be planned for: '" +
+                  robot.variables()[static_cast<std::size_t>(joint.first_variable + i)].name + "' has no range (" +
+                  numberText(lower) + " to " + numberText(upper) + "); give a workspace that has an extent in each " +
+                  "direction and meets the joint's limits, or set unbounded_translation above 0");
     bounds.setLow(i, lower);
     bounds.setHigh(i, upper);
   }
@@ -108,18 +112,19 @@ ob::RealVectorBounds translationBounds(const Joint& joint, const std::vector<std
 }
 
 /// The space of a joint without limits. Its values are in the order of the joint's variables.
-ob::StateSpacePtr spaceOf(const Joint& joint, const std::vector<std::pair<double, double>>& ranges)
+ob::StateSpacePtr spaceOf(const RobotModel& robot, const Joint& joint,
+                          const std::vector<std::pair<double, double>>& ranges)
 {
   if (joint.type == JointType::Planar)
   {
     const auto space = std::make_shared<ob::SE2StateSpace>();
-    space->setBounds(translationBounds(joint, ranges));
+    space->setBounds(translationBounds(robot, joint, ranges));
     return space;
   }
   if (joint.type == JointType::Floating)
   {
     const auto space = std::make_shared<ob::SE3StateSpace>();
-    space->setBounds(translationBounds(joint, ranges));
+    space->setBounds(translationBounds(robot, joint, ranges));
     return space;
   }
   return std::make_shared<ob::SO2StateSpace>();
@@ -151,6 +156,10 @@ std::vector<const Joint*> jointsByType(const RobotModel& robot, const Group& gro
   for (const int index : group.joints)
     if (isPlannedFor(robot, robot.joints()[index]))
       joints.push_back(&robot.joints()[index]);
+  for (const Joint* joint : joints)
+    if (joint->diff_drive)
+      throw Error("joint '" + joint->name + "' of group '" + group.name + "' cannot be planned for: it drives only " +
+                  "along its heading (motion_model diff_drive in the SRDF), and planned motions would drive sideways");
   for (const Joint* joint : joints)
     if (joint->type == JointType::Continuous && !isPeriodic(robot, *joint))
       throw Error(
@@ -251,7 +260,7 @@ GroupStateSpace::GroupStateSpace(std::shared_ptr<const RobotModel> robot, const 
     ranges_.insert(ranges_.end(), ranges.begin(), ranges.end());
     if (hasLimits(*joint))
       continue;
-    const ob::StateSpacePtr space = spaceOf(*joint, ranges);
+    const ob::StateSpacePtr space = spaceOf(*robot_, *joint, ranges);
     space->setName(joint->name);
     addSubspace(space, kWeight);
   }

@@ -80,7 +80,7 @@ std::string nameOf(const DisabledPair& pair)
 std::string percent(double share)
 {
   std::ostringstream text;
-  text.precision(2);
+  text.precision(share < 0.995 ? 2 : 3);
   text << 100.0 * share << " %";
   return text.str();
 }
@@ -157,6 +157,11 @@ void run(const CommandLine& arguments)
   const std::string out_path = arguments.value("--out", "");
   const bool goes_on = !arguments.has("--srdf") && !out_path.empty() && std::filesystem::exists(out_path);
   const std::string base_path = goes_on ? out_path : arguments.value("--srdf", "");
+  if (!goes_on && out_path != base_path && std::filesystem::exists(out_path) &&
+      readFile(out_path) != readFile(base_path))
+    throw Error(out_path +
+                ": the file exists and differs from the one given as --srdf; remove it, or choose another "
+                "name");
   if (goes_on)
     requireSameRobot(arguments.required("--urdf"), out_path, packageFoldersFrom(arguments));
   std::vector<std::string> warnings;
@@ -167,14 +172,9 @@ void run(const CommandLine& arguments)
   const std::string srdf = srdfWith(matrix, *robot, generator, base);
   if (arguments.has("--out"))
   {
-    const std::string& path = arguments.required("--out");
-    if (arguments.has("--srdf") && path != arguments.required("--srdf") && std::filesystem::exists(path) &&
-        readFile(path) != readFile(arguments.required("--srdf")))
-      throw Error(path +
-                  ": the file exists and differs from the one given as --srdf; remove it, or choose another name");
-    std::ofstream file(path);
+    std::ofstream file(out_path);
     if (!(file << srdf).flush())
-      throw Error(path + ": cannot write the file");
+      throw Error(out_path + ": cannot write the file");
   }
   else
   {

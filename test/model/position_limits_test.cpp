@@ -86,9 +86,10 @@ TEST(SoftLimits, ThatLeaveNoPositionAreAnError)
       errorOf([] { robotOf(chainUrdf(softLimits("soft_lower_limit=\"3\" soft_upper_limit=\"4\""))); }));
 }
 
-TEST(PositionLimits, ThatAreWiderThanThoseOfProofsAreAWarning)
+TEST(PositionLimits, ThatAreWiderThanThoseOfProofsMakeTheirPairsChecked)
 {
-  const auto warningsOf = [](double upper, const std::string& reason, const std::string& comment)
+  std::size_t disabled = 0;
+  const auto warningsOf = [&](double upper, const std::string& reason, const std::string& comment)
   {
     RobotModelOptions options;
     PositionLimits limits;
@@ -98,23 +99,29 @@ TEST(PositionLimits, ThatAreWiderThanThoseOfProofsAreAWarning)
     options.position_limits = {limits};
     options.srdf_name = "my.srdf";
     std::vector<std::string> warnings;
-    RobotModel::fromXml(
+    const auto robot = RobotModel::fromXml(
         "<robot name='r'><link name='rail'/><link name='cart'/><joint name='slide' type='prismatic'>"
         "<parent link='rail'/><child link='cart'/><axis xyz='1 0 0'/>"
         "<limit lower='-2' upper='2' effort='1' velocity='1'/></joint></robot>",
         "<robot name='r'>" + comment + "<disable_collisions link1='rail' link2='cart' reason='" + reason +
             "'/></robot>",
         options, &warnings);
+    disabled = robot->srdfCollisions().disabled.size();
     return warnings;
   };
   const std::vector<std::string> warnings = warningsOf(9.0, "Never", "");
+  EXPECT_EQ(0u, disabled);
   ASSERT_EQ(1u, warnings.size());
-  EXPECT_EQ(0u, warnings[0].find("my.srdf: 1 pairs of links are disabled with the reason Never, but limits are wider "
-                                 "than in the URDF: slide (-1 to 9). "))
+  EXPECT_EQ(0u,
+            warnings[0].find("my.srdf: 1 pairs of links that are disabled with the reason Never are checked, because "
+                             "limits are wider than in the URDF: slide (-1 to 9). "))
       << warnings[0];
   EXPECT_TRUE(warningsOf(1.0, "Never", "").empty()) << "narrower";
+  EXPECT_EQ(1u, disabled);
   EXPECT_TRUE(warningsOf(9.0, "Adjacent", "").empty()) << "not a proof";
+  EXPECT_EQ(1u, disabled);
   EXPECT_TRUE(warningsOf(9.0, "Never", "<!-- limits from my.yaml: slide (-1 to 9) -->").empty()) << "proven for them";
+  EXPECT_EQ(1u, disabled);
   EXPECT_EQ(1u, warningsOf(10.0, "Never", "<!-- limits from my.yaml: slide (-1 to 9) -->").size()) << "wider still";
 }
 

@@ -205,11 +205,40 @@ TEST(Srdf, OtherMisspeltElementsAreWarningsAndForeignOnesPass)
   std::vector<std::string> warnings;
   robotOf(armUrdf(), R"(<disable_collision link1="base" link2="hand"/>
 <group_states name="s" group="g"/>
-<joint_property/><tool_frame/><group name="g"><joint name="pan"/><passive_joint name="pan"/><note/></group>)",
+<tool_frame/><group name="g"><joint name="pan"/><passive_joint name="pan"/><note/></group>)",
           &warnings);
   EXPECT_EQ((std::vector<std::string>{
                 "test.srdf:1: unknown element <disable_collision>; did you mean <disable_collisions>? It is left out",
                 "test.srdf:2: unknown element <group_states>; did you mean <group_state>? It is left out"}),
+            warnings);
+}
+
+TEST(Srdf, TheMotionModelOfAPlanarJointIsRead)
+{
+  const auto srdf = [](const std::string& joint, const std::string& model)
+  {
+    return "<virtual_joint name='drive' type='planar' parent_frame='world' child_link='base'/>\n<joint_property "
+           "joint_name='" +
+           joint + "' property_name='motion_model' value='" + model + "'/>" +
+           "<joint_property joint_name='drive' property_name='angular_distance_weight' value='0.5'/>";
+  };
+  const auto is_diff_drive = [&](const std::string& model)
+  {
+    const auto robot = robotOf(armUrdf(), srdf("drive", model));
+    return robot->joints()[static_cast<std::size_t>(robot->jointIndex("drive"))].diff_drive;
+  };
+  EXPECT_TRUE(is_diff_drive("diff_drive"));
+  EXPECT_FALSE(is_diff_drive("holonomic"));
+  EXPECT_EQ("test.srdf:2: the motion_model of joint 'drive' is 'diffdrive'; it must be holonomic or diff_drive",
+            srdfError(srdf("drive", "diffdrive")));
+  std::vector<std::string> warnings;
+  robotOf(armUrdf(), srdf("pan", "diff_drive"), &warnings);
+  robotOf(armUrdf(), srdf("dive", "diff_drive"), &warnings);
+  robotOf(armUrdf(), "<joint_property joint_name='drive' property_name='motion_model'/>", &warnings);
+  EXPECT_EQ((std::vector<std::string>{
+                "test.srdf:2: the motion_model of joint 'pan' has no effect: the joint is not planar",
+                "test.srdf:2: the motion_model of joint 'dive' has no effect: the joint is not in the robot",
+                "test.srdf:1: <joint_property> lacks the attribute 'value'; it is left out"}),
             warnings);
 }
 

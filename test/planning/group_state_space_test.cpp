@@ -185,6 +185,18 @@ TEST_F(GroupStateSpaceTest, TranslationsWithoutRoomAreRefused)
   EXPECT_EQ(errorOf([&] { spaceOf("turning"); }), "");
 }
 
+TEST_F(GroupStateSpaceTest, ABaseThatDrivesOnlyAlongItsHeadingIsRefused)
+{
+  robot_ = robotOf(everyJointUrdf(), everyJointSrdf() +
+                                         "<joint_property joint_name='drive' property_name='motion_model' "
+                                         "value='diff_drive'/>");
+  EXPECT_EQ(
+      "joint 'drive' of group 'mobile' cannot be planned for: it drives only along its heading (motion_model "
+      "diff_drive in the SRDF), and planned motions would drive sideways",
+      errorOf([&] { spaceOf("mobile"); }));
+  EXPECT_EQ(errorOf([&] { spaceOf("turning"); }), "");
+}
+
 TEST_F(GroupStateSpaceTest, RowsSurviveTheConversionToStatesAndBack)
 {
   const unsigned seed = 3;

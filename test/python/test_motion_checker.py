@@ -34,6 +34,18 @@ class MotionChecker(Case):
             self.assertFalse(answer.given_up.any())
             self.assertEqual(3, len(answer))
 
+    def test_a_base_with_differential_drive_moves_along_its_heading(self):
+        robot = gps.RobotModel.from_xml(
+            '<robot name="r"><link name="body"/></robot>',
+            '<robot name="r"><virtual_joint name="drive" type="planar" parent_frame="world" child_link="body"/>'
+            '<joint_property joint_name="drive" property_name="motion_model" value="diff_drive"/></robot>',
+        )
+        checker = motions(gps.PlanningScene(robot))
+        self.assertTrue(checker.check([[0.0, 0.0, 0.0]], [[1.0, 0.0, 0.0]]).valid.all())
+        self.assert_one_line(
+            gps.Error, "motion 0: joint 'drive' moves 1 m sideways", checker.check, [[0.0] * 3], [[0.0, 1.0, 0.0]]
+        )
+
     def test_a_call_checks_one_scene_while_another_thread_changes_it(self):
         # Each wall forbids the motion. Between the walls' scenes, a motion could pass both.
         robot = rail()

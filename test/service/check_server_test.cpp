@@ -365,6 +365,35 @@ TEST_F(Server, StopAnswersRunningAndRejectsQueued)
   EXPECT_THROW(server.submit(job(1)), Error);
 }
 
+/// A checker makes proofs in threads of its own, and the end of the process would wait for them.
+TEST_F(Server, StopDropsTheCheckers)
+{
+  Gate open_gate;
+  std::vector<std::weak_ptr<StateChecker>> made;
+  const auto kept = [&made](const CheckServer::MakeChecker& make)
+  {
+    return [&made, make](std::shared_ptr<const PlanningScene> scene)
+    {
+      std::shared_ptr<StateChecker> checker = make(std::move(scene));
+      made.push_back(checker);
+      return checker;
+    };
+  };
+  CheckServer relieved(store, kept(checkersAt(gate)), options(), kept(checkersAt(open_gate)));
+  relieved.submit(job(100)).get();
+  gate.close();
+  const std::size_t checks = gate.batches().size();
+  std::future<CheckAnswer> slow = relieved.submit(job(kSmall));
+  gate.waitForChecks(checks + 1);
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), relieved.submit(job(1)).get().result.valid);
+  gate.open();
+  slow.get();
+  relieved.stop();
+  ASSERT_EQ(3u, made.size()) << "of small requests, large requests and the relief";
+  for (const std::weak_ptr<StateChecker>& checker : made)
+    EXPECT_TRUE(checker.expired());
+}
+
 TEST_F(Server, ALargeRequestIsCheckedInSlices)
 {
   CheckJob large = job(100);
@@ -507,6 +536,45 @@ TEST_F(Server, WithoutAReliefTheFirstThreadAnswers)
   EXPECT_EQ(0U, relieved.statistics().errors);
   EXPECT_EQ(0U, relieved.statistics().waiting_states);
   EXPECT_LE(attempts, 2) << "it rests after a failure";
+}
+
+/// The first check of a scene makes its trees, which may fail.
+TEST_F(Server, AReliefWhoseFirstCheckFailsGetsNoRequest)
+{
+  class FailingChecker : public GatedChecker
+  {
+   public:
+    FailingChecker(std::shared_ptr<const PlanningScene> scene, Gate& gate, std::atomic<int>& checks)
+      : GatedChecker(std::move(scene), gate), checks_(checks)
+    {
+    }
+    BatchResult check(const double*, std::size_t, const std::string&, const JointNeighbourhood*) override
+    {
+      ++checks_;
+      throw Error("there is no memory for the trees");
+    }
+
+   private:
+    std::atomic<int>& checks_;
+  };
+  Gate open_gate;
+  std::atomic<int> checks{0};
+  CheckServer relieved(store, checkersAt(gate), options(),
+                       [&](std::shared_ptr<const PlanningScene> scene)
+                       { return std::make_shared<FailingChecker>(std::move(scene), open_gate, checks); });
+  gate.close();
+  std::future<CheckAnswer> slow = relieved.submit(job(kSmall));
+  gate.waitForChecks(1);
+  std::future<CheckAnswer> waiting = relieved.submit(job(1));
+  // After a failure, the relief rests for a second.
+  for (int i = 0; i < 2000 && checks < 2; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  EXPECT_EQ(2, checks);
+  EXPECT_EQ(std::future_status::timeout, waiting.wait_for(std::chrono::milliseconds(50)));
+  gate.open();
+  EXPECT_EQ((std::vector<std::uint8_t>{1}), waiting.get().result.valid);
+  EXPECT_EQ(kSmall, slow.get().result.valid.size());
+  EXPECT_EQ(0U, relieved.statistics().errors);
 }
 
 TEST_F(Server, EveryAnswerBelongsToTheRevisionThatItNames)

@@ -202,6 +202,10 @@ std::vector<VariableRange> provenRanges(const RobotModel& robot)
   std::vector<VariableRange> ranges = limitRanges(robot);
   for (const Joint& joint : robot.joints())
   {
+    if (joint.type == JointType::Planar || joint.type == JointType::Floating)
+      for (int variable = joint.first_variable; variable < joint.first_variable + variableCount(joint.type); ++variable)
+        if (const Variable& base = robot.variables()[static_cast<std::size_t>(variable)]; base.bounded)
+          ranges.push_back({variable, base.lower - kBeyondLimit, base.upper + kBeyondLimit});
     const bool turns = joint.type == JointType::Revolute || joint.type == JointType::Continuous;
     const int angle = turns ? joint.first_variable : joint.type == JointType::Planar ? joint.first_variable + 2 : -1;
     if (angle < 0 || joint.multiplier == 0.0)

@@ -36,8 +36,9 @@ struct SweptBody
 /// these ranges.
 std::vector<VariableRange> limitRanges(const RobotModel& robot);
 
-/// The ranges of variables within which motions are proven free: limitRanges, and for each variable that turns joints
-/// the values at which none of them is beyond kLargestProvenAngle.
+/// The ranges of variables within which motions are proven free: limitRanges, the limits of planar and floating joints
+/// (slightly enlarged too), and for each variable that turns joints the values at which none of them is beyond
+/// kLargestProvenAngle.
 std::vector<VariableRange> provenRanges(const RobotModel& robot);
 
 /// Upper bounds of the regions that a robot's bodies can reach while the joints stay within their limits. Nothing is

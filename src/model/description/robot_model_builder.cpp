@@ -45,7 +45,7 @@ class RobotModelBuilder
     if (has_srdf)
     {
       addSrdf(srdf);
-      warnOfProofs(widened, srdf_text);
+      checkUnprovenPairs(widened, srdf_text);
     }
     return model_;
   }
@@ -115,6 +115,9 @@ class RobotModelBuilder
       else
         warnings_.push_back(passive.where + ": passive joint '" + passive.name + "' is not in the robot");
     }
+    for (const SrdfJointProperty& property : srdf.joint_properties)
+      if (property.property == "motion_model")
+        setMotionModel(property);
     SrdfCollisions& collisions = model_->srdf_collisions_;
     collisions.disabled = resolvePairs(srdf.disabled);
     collisions.enabled = resolvePairs(srdf.enabled);
@@ -128,24 +131,41 @@ class RobotModelBuilder
     model_->named_states_ = resolveNamedStates(srdf.named_states, *model_, ignored_joints_, warnings_);
   }
 
-  /// A pair with the reason Never was found free within the limits of the URDF, or within those that a comment of the
-  /// SRDF names (srdf_writer.cpp).
-  void warnOfProofs(const std::vector<int>& widened, const std::string& srdf)
+  void setMotionModel(const SrdfJointProperty& property)
   {
-    const std::vector<LinkPair>& disabled = model_->srdf_collisions_.disabled;
-    const auto never =
-        std::count_if(disabled.begin(), disabled.end(), [](const LinkPair& pair) { return pair.reason == "Never"; });
+    if (property.value != "holonomic" && property.value != "diff_drive")
+      throw Error(property.where + ": the motion_model of joint '" + property.joint + "' is '" + property.value +
+                  "'; it must be holonomic or diff_drive");
+    const int joint = model_->jointIndex(property.joint);
+    const bool is_planar = joint >= 0 && model_->joints_[joint].type == JointType::Planar;
+    if (is_planar)
+      model_->joints_[joint].diff_drive = property.value == "diff_drive";
+    else if (ignored_joints_.count(property.joint) == 0)
+      warnings_.push_back(property.where + ": the motion_model of joint '" + property.joint + "' has no effect: " +
+                          (joint < 0 ? "the joint is not in the robot" : "the joint is not planar"));
+  }
+
+  /// A pair with the reason Never was found free within the limits of the URDF, or within those that a comment of the
+  /// SRDF names (srdf_writer.cpp). If limits are wider, these pairs are checked.
+  void checkUnprovenPairs(const std::vector<int>& widened, const std::string& srdf)
+  {
     std::vector<std::string> unproven;
     for (const int number : widened)
       if (const std::string limits = describeVariable(model_->variables_[static_cast<std::size_t>(number)]);
           srdf.find(limits) == std::string::npos)
         unproven.push_back(limits);
-    if (never > 0 && !unproven.empty())
-      warnings_.push_back(
-          options_.srdf_name + ": " + std::to_string(never) + " pairs of links are disabled with the " +
-          "reason Never, but limits are wider than in the URDF: " + nameList(unproven) +
-          ". There, these pairs may collide and are not checked: run generate_acm with --planning and " +
-          "these limits");
+    if (unproven.empty())
+      return;
+    std::vector<LinkPair>& disabled = model_->srdf_collisions_.disabled;
+    const auto first = std::stable_partition(disabled.begin(), disabled.end(),
+                                             [](const LinkPair& pair) { return pair.reason != "Never"; });
+    if (first == disabled.end())
+      return;
+    warnings_.push_back(options_.srdf_name + ": " + std::to_string(disabled.end() - first) +
+                        " pairs of links that are disabled with the reason Never are checked, because limits are " +
+                        "wider than in the URDF: " + nameList(unproven) +
+                        ". To save their checks, run generate_acm with --planning and these limits");
+    disabled.erase(first, disabled.end());
   }
 
   int knownLink(const std::string& link, const std::string& where)

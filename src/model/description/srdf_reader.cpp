@@ -60,6 +60,14 @@ class SrdfReader
                  });
     srdf.passive_joints = readNames(root, "passive_joint");
     forEachChild(
+        root, "joint_property",
+        [&](const tinyxml2::XMLElement& element)
+        {
+          if (hasAll(element, {"joint_name", "property_name", "value"}))
+            srdf.joint_properties.push_back({attribute(element, "joint_name"), attribute(element, "property_name"),
+                                             attribute(element, "value"), xml_.where(element)});
+        });
+    forEachChild(
         root, "disable_collisions",
         [&](const tinyxml2::XMLElement& element)
         {

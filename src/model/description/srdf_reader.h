@@ -47,6 +47,14 @@ struct SrdfNamedState
   std::vector<std::pair<SrdfName, std::string>> values;  ///< joints and the text of their values
 };
 
+struct SrdfJointProperty
+{
+  std::string joint;
+  std::string property;
+  std::string value;
+  std::string where;
+};
+
 struct SrdfPair
 {
   std::string link_1;
@@ -64,6 +72,7 @@ struct Srdf
   std::vector<SrdfGroup> groups;
   std::vector<SrdfNamedState> named_states;
   std::vector<SrdfName> passive_joints;
+  std::vector<SrdfJointProperty> joint_properties;
   std::vector<SrdfPair> disabled;
   std::vector<SrdfPair> enabled;
   std::vector<SrdfName> disabled_by_default;

@@ -103,7 +103,8 @@ void requireUrdf(const XmlText& xml, std::vector<std::string>& warnings)
   std::vector<const XMLElement*> leftovers;
   refuseXacro(xml, "urdf", leftovers);
   for (const XMLElement* element : leftovers)
-    warnings.push_back(xml.where(*element) + ": <" + element->Name() + "> was not expanded by xacro; it is not used");
+    warnings.push_back(xml.where(*element) + ": <" + element->Name() +
+                       "> was not expanded by xacro: what the macro makes, for example links, is missing");
   const XMLElement* of_srdf =
       firstOf(xml, {"group", "disable_collisions", "virtual_joint", "end_effector", "group_state", "passive_joint"});
   if (firstOf(xml, {"link"}) == nullptr && of_srdf != nullptr)

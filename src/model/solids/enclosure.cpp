@@ -69,20 +69,26 @@ Enclosure enclosureOf(const WeldedTriangles& triangles, const Numbers& part)
   { return countMissedPlaces(triangles.points(), triangles.cornersOf(by), found.surface.triangles); };
   Enclosure best = asInFile(triangles, part);
   bool is_as_in_file = !best.members.empty();
+  bool has_shell = false;
   std::size_t least = is_as_in_file ? missed(best, part) : 0;
   for (const SheetOrder order : {SheetOrder::FirstBehind, SheetOrder::FirstInFront})
   {
     if (!best.members.empty() && least == 0)
       break;
     Enclosure shell = outerShellOf(triangles, part, order);
-    const std::size_t count = shell.members.empty() ? 0 : missed(shell, part);
-    if (shell.members.empty() || (!best.members.empty() && count >= least))
+    if (shell.members.empty())
+      continue;
+    has_shell = true;
+    const std::size_t count = missed(shell, part);
+    if (!best.members.empty() && count >= least)
       continue;
     best = std::move(shell);
     least = count;
     is_as_in_file = false;
   }
-  best.is_certain = least == 0 || is_as_in_file || missed(best, best.with_walls) == 0;
+  // Places that a shell misses too are deep pockets.
+  const bool are_pockets = is_as_in_file && has_shell;
+  best.is_certain = least == 0 || are_pockets || missed(best, best.with_walls) == 0;
   return best;
 }
 }  // namespace gpu_planning_scene::core

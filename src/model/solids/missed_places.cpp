@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
+#include "model/solids/largest_triangles.h"
 #include "model/solids/line_crossing.h"
 
 // A place seems to be enclosed if rays in many directions all meet a triangle. Own method.
@@ -22,11 +23,6 @@ constexpr double kBeside = 1e-3;
 /// Crossings of a ray and a triangle to compute, about: a tenth of a second.
 constexpr std::size_t kMostCrossings = 20'000'000;
 constexpr std::size_t kRaysOfAPlace = 8;  // most places are outside, and the first rays show it
-
-Vector3d normalOf(const std::vector<Vector3d>& points, const Corners& t)
-{
-  return (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
-}
 
 /// Directions of rays, off the axes, along which edges often run.
 const std::vector<Vector3d>& directions()
@@ -72,27 +68,19 @@ bool seemsEnclosed(const std::vector<Vector3d>& points, const std::vector<Corner
 std::size_t countMissedPlaces(const std::vector<Vector3d>& points, const std::vector<Corners>& triangles,
                               const std::vector<Corners>& cycle)
 {
-  const auto is_larger = [&](std::uint32_t a, std::uint32_t b)
-  { return normalOf(points, triangles[a]).squaredNorm() > normalOf(points, triangles[b]).squaredNorm(); };
   DisjointSets patches = patchSets(edgeUses(triangles), triangles.size());
-  std::map<std::uint32_t, std::uint32_t> of_patch;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> members;
   for (std::uint32_t t = 0; t < triangles.size(); ++t)
-    if (std::uint32_t& known = of_patch.try_emplace(patches.find(t), t).first->second; is_larger(t, known))
-      known = t;
-  std::vector<std::uint32_t> largest;
-  for (const auto& [patch, triangle] : of_patch)
-    largest.push_back(triangle);
-  std::sort(largest.begin(), largest.end(), is_larger);
-  largest.resize(std::min(largest.size(), 1 + kMostCrossings / (2 * kRaysOfAPlace * triangles.size() + 1)));
+    members.emplace_back(patches.find(t), t);
+  const std::size_t most = 1 + kMostCrossings / (2 * kRaysOfAPlace * triangles.size() + 1);
   std::size_t missed = 0;
-  for (const std::uint32_t number : largest)
+  for (const std::uint32_t number : largestOfSets(points, triangles, members, most))
   {
     const Corners& t = triangles[number];
-    const Vector3d normal = normalOf(points, t);
+    const Vector3d normal = areaNormal(points, t);
     for (const double side : {-kBeside, kBeside})
     {
-      const Vector3d place = 0.31 * points[t[0]] + 0.36 * points[t[1]] + 0.33 * points[t[2]] +
-                             side * std::sqrt(normal.norm()) * normal.normalized();
+      const Vector3d place = pointWithin(points, t) + side * std::sqrt(normal.norm()) * normal.normalized();
       if (!isInside(points, cycle, place) && seemsEnclosed(points, triangles, place))
         ++missed;
     }

@@ -144,9 +144,14 @@ void turnPatches(const std::vector<Vector3d>& points, const std::vector<EdgeUse>
 }
 }  // namespace
 
+Vector3d areaNormal(const std::vector<Vector3d>& points, const Corners& t)
+{
+  return (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
+}
+
 double areaOf(const std::vector<Vector3d>& points, const Corners& t)
 {
-  return 0.5 * (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]).norm();
+  return 0.5 * areaNormal(points, t).norm();
 }
 
 std::vector<BoundaryEdge> signedBoundary(const std::vector<Corners>& triangles)

@@ -35,6 +35,9 @@ OrientedSurface asOriented(std::vector<Corners> triangles);
 /// The signed boundary of triangles with distinct corners.
 std::vector<BoundaryEdge> signedBoundary(const std::vector<Corners>& triangles);
 
+/// The normal at the front of a triangle. Its length is twice the area.
+Eigen::Vector3d areaNormal(const std::vector<Eigen::Vector3d>& points, const Corners& triangle);
+
 /// The area of a triangle, in square metres.
 double areaOf(const std::vector<Eigen::Vector3d>& points, const Corners& triangle);
 }  // namespace gpu_planning_scene::core

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 #include <utility>
 
 #include <Eigen/Geometry>
 
+#include "model/solids/largest_triangles.h"
 #include "model/solids/line_crossing.h"
 #include "model/solids/orientation.h"
 
@@ -91,20 +91,23 @@ class Sides
   /// The triangles of each set that edges connect.
   std::vector<std::vector<std::uint32_t>> pieces() { return pieces_.sets(); }
 
-  /// The sets of sides of a piece that face the outside, found by lines through the largest triangle of each set. The
-  /// outside is more than one set if, of two sheets that lie upon one another, the outer one was taken for the inner
-  /// one.
+  /// The sets of sides of a piece that face the outside, found by lines through the largest triangle of each set. There
+  /// is more than one such set if two sheets lie upon one another and the outer one was taken for the inner one.
   std::set<std::uint32_t> outside(const std::vector<std::uint32_t>& piece)
   {
     // Off the normal, because opposite triangles often lie exactly opposite each other.
     const Vector3d tilts[] = {{0.0123, 0.0371, 0.0237}, {-0.0531, 0.0113, 0.0319}};
     std::set<std::uint32_t> sets;
-    for (const std::uint32_t triangle : largestOfSets(piece))
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> members;
+    for (const std::uint32_t t : piece)
+      for (const std::uint32_t side : {front(t), back(t)})
+        members.emplace_back(setOf(side), t);
+    for (const std::uint32_t triangle : largestOfSets(points_, triangles_, members, kMostLines))
       for (const Vector3d& tilt : tilts)
       {
         const Corners& t = triangles_[triangle];
-        const Vector3d origin = 0.31 * points_[t[0]] + 0.36 * points_[t[1]] + 0.33 * points_[t[2]];
-        for (const std::uint32_t side : sidesAtEnds(piece, {origin, normal(triangle).normalized() + tilt}))
+        const Line line = {pointWithin(points_, t), areaNormal(points_, t).normalized() + tilt};
+        for (const std::uint32_t side : sidesAtEnds(piece, line))
           sets.insert(setOf(side));
       }
     return sets;
@@ -113,34 +116,9 @@ class Sides
  private:
   std::uint32_t patchOf(const Leaf& leaf) { return patches_.find(leaf.use.triangle); }
 
-  Vector3d normal(std::uint32_t triangle) const
-  {
-    const Corners& t = triangles_[triangle];
-    return (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]);
-  }
-
-  /// The largest triangle of each set of joined sides; of many sets, those with the largest triangles.
-  std::vector<std::uint32_t> largestOfSets(const std::vector<std::uint32_t>& piece)
-  {
-    const auto is_larger = [this](std::uint32_t a, std::uint32_t b)
-    { return normal(a).squaredNorm() > normal(b).squaredNorm(); };
-    std::map<std::uint32_t, std::uint32_t> of_set;
-    for (const std::uint32_t t : piece)
-      for (const std::uint32_t side : {front(t), back(t)})
-        if (std::uint32_t& known = of_set.try_emplace(setOf(side), t).first->second; is_larger(t, known))
-          known = t;
-    std::set<std::uint32_t> distinct;
-    for (const auto& [set, triangle] : of_set)
-      distinct.insert(triangle);
-    std::vector<std::uint32_t> largest(distinct.begin(), distinct.end());
-    std::sort(largest.begin(), largest.end(), is_larger);
-    largest.resize(std::min(largest.size(), kMostLines));
-    return largest;
-  }
-
-  /// Sorts the triangles at an edge by angle. Of triangles that lie upon one another, the others are always on
-  /// the same side of the one of the first patch, so that no chamber opens between two such sheets. Returns false if a
-  /// triangle has no angle, because its corners lie on a line.
+  /// Sorts the triangles at an edge by angle. Triangles that lie upon one another are sorted by their patches, at each
+  /// edge in the same order, so that no chamber opens between two such sheets. Returns false if a triangle has no
+  /// angle, because its corners lie on a line.
   bool sortAround(const EdgeUse* uses, std::size_t count, std::vector<Leaf>& leaves)
   {
     leaves.clear();

@@ -2,6 +2,8 @@
 #include <utility>
 
 #include "collision/problem/state_validation.h"
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/interpolation.h"
 #include "model/full_states.h"
 #include "node/checks/check_services.h"
 #include "node/checks/requested_motions.h"
@@ -32,6 +34,9 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         const std::vector<double> ends = fullStates(robot, job.columns, given.ends.data(), count, current);
         validateStates(robot, starts.data(), count, "motion");
         validateStates(robot, ends.data(), count, "motion");
+        if (const std::string sideways = sidewaysMotion(robot, starts.data(), ends.data(), count, "motion");
+            !sideways.empty())
+          throw Error(sideways);
         std::tie(job.motions, job.samples) =
             requestedMotions({request.motion_rule, request.resolution, request.translation_resolution, "motion"}, robot,
                              starts.data(), ends.data(), count, options_);

@@ -144,6 +144,7 @@ CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::
                                                      : outsideLimits(
                                                            robot, trajectory.columns, trajectory.rows,
                                                            [](std::size_t i) { return rowName(i + 1); });
+        addWarning(sidewaysMotion(robot, path.data(), path.data() + width, parts, "part"), response.message);
         addWarning(givenUp(answer.motions, options_.max_motion_checks, "part"), response.message);
         addWarning(longTurn(robot, path), response.message);
         addWarnings(scene.warnings, response.message);

@@ -427,5 +427,36 @@ TEST_F(TurningRod, TurnsAlsoAsPartOfAPlanarJoint)
     EXPECT_EQ(free, checker.check(from.data(), to.data(), 1).front().valid) << angle;
   }
 }
+
+TEST(MotionsOfBases, AreNotProvenFreeOutsideTheLimitsOfTheirTranslations)
+{
+  for (const std::string type : {"planar", "floating"})
+  {
+    const std::string y = type == "planar" ? "drive/y" : "drive/trans_y";
+    RobotModelOptions options;
+    options.position_limits = {{y, -5.0, 5.0}};
+    const auto robot = RobotModel::fromXml("<robot name='r'>" + boxLink("body") + "</robot>",
+                                           "<robot name='r'><virtual_joint name='drive' type='" + type +
+                                               "' parent_frame='world' child_link='body'/></robot>",
+                                           options);
+    const auto scene = std::make_shared<PlanningScene>(robot);
+    const auto is_free = [&](MotionRule rule, double y_from, double y_to)
+    {
+      MotionCheckerOptions motions;
+      motions.rule = rule;
+      std::vector<double> from = robot->defaultState();
+      std::vector<double> to = from;
+      from[0] = 8.0;  // x has no limits
+      from[1] = y_from;
+      to[1] = y_to;
+      const MotionChecker checker(std::make_shared<CpuChecker>(scene), robot, "", motions);
+      return checker.check(from.data(), to.data(), 1).front().valid;
+    };
+    EXPECT_TRUE(is_free(MotionRule::Bound, -5.0, 5.0)) << type;
+    EXPECT_FALSE(is_free(MotionRule::Bound, 0.0, 5.5)) << type;
+    EXPECT_FALSE(is_free(MotionRule::Bound, -7.0, -8.0)) << type;
+    EXPECT_TRUE(is_free(MotionRule::Samples, -7.0, -8.0)) << type;
+  }
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core

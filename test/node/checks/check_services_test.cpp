@@ -99,6 +99,42 @@ TEST_F(Service, OtherVariablesTakeTheCurrentState)
   EXPECT_EQ((std::vector<std::uint8_t>{0}), answer(request({"turn"}, {0.5})).valid);
 }
 
+TEST(MotionsOfADifferentialDrive, AreRefusedIfTheyGoSideways)
+{
+  const auto robot = RobotModel::fromXml(
+      "<robot name='r'>" + boxLink("body") + "</robot>",
+      "<robot name='r'><virtual_joint name='drive' type='planar' parent_frame='world' child_link='body'/>"
+      "<joint_property joint_name='drive' property_name='motion_model' value='diff_drive'/></robot>",
+      {});
+  SceneStore store(PlanningScene(robot), {}, {});
+  CheckServer server(
+      store, [](std::shared_ptr<const PlanningScene> scene) { return std::make_shared<CpuChecker>(std::move(scene)); },
+      {});
+  MemoryGuard memory(0);
+  CheckServices services(store, server, memory, {1000, 1000000, 10}, nullptr);
+  CheckMotions::Request motions;
+  motions.joint_names = {"drive/x", "drive/y", "drive/theta"};
+  motions.starts = {0.0, 0.0, 0.0};
+  motions.ends = {0.5, 0.0, 0.0};
+  motions.resolution = motions.translation_resolution = 0.05;
+  CheckMotions::Response response = services.checkMotions(motions);
+  EXPECT_TRUE(response.success) << response.message;
+  motions.ends = {0.5, 0.1, 0.0};
+  response = services.checkMotions(motions);
+  EXPECT_FALSE(response.success);
+  EXPECT_EQ(0u, response.message.find("motion 0: joint 'drive' moves 0.1 m sideways")) << response.message;
+
+  CheckTrajectory::Request trajectory;
+  trajectory.resolution = trajectory.translation_resolution = 0.05;
+  trajectory.joint_trajectory.joint_names = motions.joint_names;
+  trajectory.joint_trajectory.points.resize(2);
+  trajectory.joint_trajectory.points[0].positions = motions.starts;
+  trajectory.joint_trajectory.points[1].positions = motions.ends;
+  const CheckTrajectory::Response followed = services.checkTrajectory(trajectory);
+  EXPECT_TRUE(followed.success && followed.valid) << followed.message;
+  EXPECT_NE(std::string::npos, followed.message.find("part 1: joint 'drive' moves 0.1 m sideways")) << followed.message;
+}
+
 /// A request is queued while a change sets the scene and the robot's state together.
 class WaitingService : public Service
 {
