@@ -11,24 +11,18 @@
 #include <string>
 #include <vector>
 
-#include <ompl/base/goals/GoalState.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
 #include "benchmark/csv_table.h"
 #include "benchmark/statistics.h"
-#include "collision/checkers/cpu_scene.h"
-#include "collision/checkers/open_checker.h"
-#include "collision/filter/proofs/proof_worker.h"
 #include "command_line/command_line.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
-#include "gpu_planning_scene/planning/motion_validator.h"
-#include "gpu_planning_scene/planning/state_validity_checker.h"
 #include "planning/fcl_checker.h"
-#include "support/planning_problems.h"
+#include "planning/planning_case.h"
 
 namespace gpu_planning_scene::core::benchmark
 {
@@ -115,6 +109,7 @@ class Study
  public:
   explicit Study(const Settings& settings)
     : settings_(settings),
+      ours_(settings.device),
       table_(settings.out, "planning.csv",
              {"problem", "run", "rule", "method", "solved", "seconds", "length", "waypoints", "states_checked",
               "checked_again", "colliding"})
@@ -140,26 +135,13 @@ class Study
   void runProblem(const std::string& name, std::size_t number)
   {
     const PlanningProblem problem = loadPlanningProblem(name);
-    if (!ours_)
-    {
-      BatchCheckerOptions options;
-      options.device = settings_.device;
-      ours_ = openWithFallback(problem.scene, options,
-                               [](const std::string& warning) { std::cerr << "warning: " << warning << std::endl; });
-      exact_ = std::make_shared<CpuChecker>(problem.scene);
-      std::cout << "device: " << ours_->deviceName() << std::endl;
-    }
-    else
-    {
-      ours_->setScene(problem.scene);
+    const std::shared_ptr<StateChecker> ours = ours_.in(problem);
+    if (exact_)
       exact_->setScene(problem.scene);
-    }
+    else
+      exact_ = std::make_shared<CpuChecker>(problem.scene);
     const auto fcl = isChosen(Method::RrtConnectFcl) ? std::make_shared<FclChecker>(problem.scene, problem.group)
                                                      : std::shared_ptr<FclChecker>();
-    makeProofs(problem);
-    // Keeps the one-time work for a scene out of the planning time.
-    ours_->check(problem.start.data(), 1, problem.group);
-    ours_->report(problem.group);
     for (std::size_t run = 0; run < settings_.runs; ++run)
       for (const MotionRule rule : {MotionRule::Bound, MotionRule::Samples})
         for (std::size_t k = 0; k < std::size(kMethods); ++k)
@@ -168,7 +150,7 @@ class Study
           if (!isChosen(method))
             continue;
           const std::shared_ptr<StateChecker> checker =
-              method == Method::RrtConnectFcl ? std::static_pointer_cast<StateChecker>(fcl) : ours_;
+              method == Method::RrtConnectFcl ? std::static_pointer_cast<StateChecker>(fcl) : ours;
           const Outcome outcome =
               plan(problem, method, rule, checker, static_cast<unsigned int>(1 + number + 1000 * run));
           wrong_ = wrong_ || (rule == MotionRule::Bound && outcome.colliding != 0 && method != Method::RrtConnectFcl);
@@ -179,43 +161,17 @@ class Study
         }
   }
 
-  /// A node makes the proofs of a robot after the first batches, and keeps them on disk.
-  void makeProofs(const PlanningProblem& problem)
-  {
-    std::vector<double> rows;
-    for (std::size_t i = 0; i < kStatesBeforeProofs; ++i)
-      rows.insert(rows.end(), problem.start.begin(), problem.start.end());
-    ours_->check(rows.data(), kStatesBeforeProofs, problem.group);
-    ours_->check(rows.data(), kStatesBeforeProofs, problem.group);
-    waitForProofs();
-    ours_->check(rows.data(), 64, problem.group);
-  }
-
   Outcome plan(const PlanningProblem& problem, Method method, MotionRule rule,
                const std::shared_ptr<StateChecker>& checker, unsigned int seed)
   {
     ompl::RNG::setSeed(seed);
-    const auto space = std::make_shared<GroupStateSpace>(problem.scene->robot, problem.group);
-    const auto information = std::make_shared<ob::SpaceInformation>(space);
-    MotionCheckerOptions options;
-    options.rule = rule;
-    const auto states = std::make_shared<StateValidityChecker>(information, problem.scene, checker);
-    const auto motions = std::make_shared<MotionValidator>(information, problem.scene, checker, options);
-    information->setStateValidityChecker(states);
-    information->setMotionValidator(motions);
-    information->setup();
-    ob::ScopedState<> start(space);
-    ob::ScopedState<> goal(space);
-    space->copyFromRow(problem.start.data(), start.get());
-    space->copyFromRow(problem.goal.data(), goal.get());
-    const auto definition = std::make_shared<ob::ProblemDefinition>(information);
-    definition->setStartAndGoalStates(start, goal);
+    const PlanningCase in(problem, checker, rule);
     std::unique_ptr<ob::Planner> planner;
     if (method == Method::Batch)
-      planner = std::make_unique<BatchRrtConnect>(information);
+      planner = std::make_unique<BatchRrtConnect>(in.information);
     else
-      planner = std::make_unique<og::RRTConnect>(information);
-    planner->setProblemDefinition(definition);
+      planner = std::make_unique<og::RRTConnect>(in.information);
+    planner->setProblemDefinition(in.definition);
     planner->setup();
 
     Outcome outcome;
@@ -223,13 +179,13 @@ class Study
     const ob::PlannerStatus status = planner->solve(ob::timedPlannerTerminationCondition(settings_.seconds));
     outcome.seconds = watch.seconds();
     outcome.solved = status == ob::PlannerStatus::EXACT_SOLUTION;
-    outcome.states = states->statesChecked() + motions->statesChecked();
+    outcome.states = in.statesChecked();
     if (outcome.solved)
     {
-      const auto& path = *definition->getSolutionPath()->as<og::PathGeometric>();
+      const auto& path = *in.definition->getSolutionPath()->as<og::PathGeometric>();
       outcome.length = path.length();
       outcome.waypoints = path.getStateCount();
-      checkAgain(path, *space, problem, options.steps, *exact_, outcome);
+      checkAgain(path, *in.space, problem, in.options.steps, *exact_, outcome);
     }
     return outcome;
   }
@@ -265,8 +221,8 @@ class Study
   }
 
   Settings settings_;
+  ProblemChecker ours_;
   CsvTable table_;
-  std::shared_ptr<StateChecker> ours_;
   std::shared_ptr<CpuChecker> exact_;
   std::map<std::pair<std::string, std::string>, std::vector<Outcome>> outcomes_;
   bool wrong_ = false;

@@ -80,7 +80,7 @@ PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>
                           const py::object& goals, Arg<double> seconds, Arg<bool> simplify,
                           const Arg<std::string>& rule, Arg<double> resolution, Arg<double> translation_resolution,
                           Arg<std::size_t> max_samples, const py::object& parameters, const py::object& seed,
-                          const py::object& workspace)
+                          const py::object& workspace, Arg<double> optimize)
 {
   const auto scene = checker.value->scene();
   PlanningQuery query;
@@ -96,6 +96,7 @@ PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>
   query.parameters = parametersFrom(parameters);
   query.seed = seedFrom(seed);
   query.workspace = workspaceFrom(workspace);
+  query.optimize_seconds = optimize.value;
   Interrupt interrupt;
   PlanningResult result = withoutLock(
       [&]
@@ -147,7 +148,7 @@ void addPlanning(py::module_& module)
       py::arg("seconds") = PlanningQuery().seconds, py::arg("simplify") = true, py::arg("rule") = "bound",
       py::arg("resolution") = motions.steps.revolute, py::arg("translation_resolution") = motions.steps.prismatic,
       py::arg("max_samples") = motions.max_samples, py::arg("parameters") = py::none(), py::arg("seed") = py::none(),
-      py::arg("workspace") = py::none(),
+      py::arg("workspace") = py::none(), py::arg("optimize") = 0.0,
       "Plans a motion of a planning group in the scene of a StateChecker, with the planner BatchRrtConnect.\n\n"
       "start: shape (variables,). goals: shape (n, variables) or (variables,); the motion may end at any of "
       "them. Both can be names of states of the SRDF: variables that the start does not set have their values from the "
@@ -160,7 +161,9 @@ void addPlanning(py::module_& module)
       "meanwhile. If the parameter max_rounds ends a search before `seconds` do, a failure is the same each time too. "
       "Calls with a seed run one after the other. workspace: a pair of corners (xyz, xyz), the range in metres in "
       "which "
-      "planar and floating joints of the group are planned for; None: that of unbounded_translation.\n\nReturns a "
+      "planar and floating joints of the group are planned for; None: that of unbounded_translation. optimize: seconds "
+      "in "
+      "which the path is made shorter after simplification.\n\nReturns a "
       "PlanningResult: a motion that "
       "is not found is not an exception. Raises Error for an unknown group or parameter, for other shapes, and for "
       "values that "

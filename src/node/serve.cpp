@@ -85,6 +85,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
                        look_up);
   PathPublisher paths(own, options.marker_rate, options.marker_triangles);
   PlanService plans(own, store, look_up, make_checker, memory, paths, plan_options);
+  plans.prepare();
   SceneServices changes(store, look_up, memory, setup);
   CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);
   MarkerPublisher markers(own, store, options.marker_rate, options.marker_triangles);

@@ -136,7 +136,7 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
   for (unsigned int round = 0; !path && !ptc && (max_rounds_ == 0 || round < max_rounds_); ++round)
   {
     takeMoreGoals();
-    path = search_->runRound(validator, *goal, branches_, range_, ptc);
+    path = search_->runRound(validator, *goal, {branches_, range_, largest_length_}, ptc);
   }
   const double spent = ompl::time::seconds(ompl::time::now() - start);
   const double more = std::clamp(kProofOfTime * spent, kLeastProof, kMaxProof);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // A round collects the next motions of all attempts and of the random branches. It checks their samples in one call and
 // adds the valid motions to the trees. The trees stay balanced: a tree in open space would soon have most of the
@@ -30,6 +31,10 @@ constexpr std::size_t kBranchesBetweenStops = 16;
 // at once.
 constexpr std::size_t kPiecesBetweenRoots = 32;
 
+// Draws of a random state within the largest length. If that is little more than the distance of the roots, few states
+// are within it, and the last draw is taken.
+constexpr std::size_t kDraws = 64;
+
 BidirectionalTree::Side otherThan(BidirectionalTree::Side side)
 {
   return side == BidirectionalTree::Start ? BidirectionalTree::Goal : BidirectionalTree::Start;
@@ -52,6 +57,7 @@ BidirectionalTree::~BidirectionalTree()
 void BidirectionalTree::addRoot(Side side, const ompl::base::State* state)
 {
   const Vertex& root = trees_[side].add(state, nullptr);
+  roots_[side].push_back(root.state);
   if (trees_[otherThan(side)].size() != 0)
     connections_.push_back({otherThan(side), nullptr, &root, kPiecesBetweenRoots});
 }
@@ -112,10 +118,28 @@ std::size_t BidirectionalTree::branchesOfRound(std::size_t max_branches) const
   return std::min(max_branches, std::max(kLeastBranches, smaller / kVerticesPerBranch));
 }
 
-BidirectionalTree::Attempt BidirectionalTree::randomBranch(Side side, double range)
+/// A lower bound of the length of paths through a state, from a root to a root of the other tree.
+double BidirectionalTree::lengthThrough(const ompl::base::State* state) const
 {
+  double sum = 0.0;
+  for (const std::vector<const ompl::base::State*>& roots : roots_)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (const ompl::base::State* root : roots)
+      least = std::min(least, information_->distance(root, state));
+    sum += least;
+  }
+  return sum;
+}
+
+BidirectionalTree::Attempt BidirectionalTree::randomBranch(Side side, const Limits& limits)
+{
+  const double range = limits.range;
   ompl::base::State* state = scratch();
   sampler_->sampleUniform(state);
+  const bool is_limited = std::isfinite(limits.largest_length);
+  for (std::size_t i = 1; is_limited && i < kDraws && lengthThrough(state) >= limits.largest_length; ++i)
+    sampler_->sampleUniform(state);
   const Vertex& from = trees_[side].nearest(state);
   const double distance = information_->distance(from.state, state);
   if (distance > range)
@@ -134,21 +158,20 @@ const RrtTree::Vertex& BidirectionalTree::advance(const Attempt& attempt, const 
   return *tip;
 }
 
-std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionValidator& validator,
-                                                                std::size_t max_branches, double range,
+std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionValidator& validator, const Limits& limits,
                                                                 const ompl::base::PlannerTerminationCondition& ptc)
 {
   scratch_used_ = 0;
   const Side side = growingSide();
   std::vector<Attempt> attempts;
   for (const Connection& connection : connections_)
-    attempts.push_back(pieces(connection, range));
-  const std::size_t branches = branchesOfRound(max_branches);
+    attempts.push_back(pieces(connection, limits.range));
+  const std::size_t branches = branchesOfRound(limits.branches);
   for (std::size_t i = 0; i < branches; ++i)
   {
     if (i % kBranchesBetweenStops == kBranchesBetweenStops - 1 && ptc)
       break;
-    attempts.push_back(randomBranch(side, range));
+    attempts.push_back(randomBranch(side, limits));
   }
 
   // The motions get the direction that they will have in the path.
@@ -163,7 +186,7 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
       last = state;
     }
   }
-  const std::vector<std::uint8_t> valid = validator.validateSamples(motions, ptc);
+  const std::vector<std::uint8_t> valid = validator.validateCoarsely(motions, ptc);
   if (ptc)  // motions without a verdict are reported as invalid
     return {};
   connections_.clear();

@@ -29,6 +29,13 @@ class BidirectionalTree
     const RrtTree::Vertex* goal;
   };
 
+  struct Limits
+  {
+    std::size_t branches;   ///< random branches of a round
+    double range;           ///< of a motion, above 0
+    double largest_length;  ///< of a path through a random state, from a root to a root of the other tree
+  };
+
   explicit BidirectionalTree(const ompl::base::Planner& planner);
   ~BidirectionalTree();
   BidirectionalTree(const BidirectionalTree&) = delete;
@@ -46,11 +53,11 @@ class BidirectionalTree
   void addRoot(Side side, const ompl::base::State* state);
 
   /// Grows the trees by one round; the samples of all its motions are checked in one call. One tree, mostly the smaller
-  /// one, grows motions towards random states: at most `max_branches`, and none in the first round. Both trees also
+  /// one, grows motions towards random states: at most `limits.branches`, and none in the first round. Both trees also
   /// grow towards their targets, which are vertices of the other tree. Each vertex of a new random branch becomes a
-  /// target of the other tree, from the next round on. `range`: the longest motion, above 0. Returns the meetings of
-  /// the trees. If `ptc` ends the round, the trees stay as they were, and there are no meetings.
-  std::vector<Meeting> grow(const MotionValidator& validator, std::size_t max_branches, double range,
+  /// target of the other tree, from the next round on. Returns the meetings of the trees. If `ptc` ends the round, the
+  /// trees stay as they were, and there are no meetings.
+  std::vector<Meeting> grow(const MotionValidator& validator, const Limits& limits,
                             const ompl::base::PlannerTerminationCondition& ptc);
 
  private:
@@ -75,13 +82,15 @@ class BidirectionalTree
   Side growingSide();
   std::size_t branchesOfRound(std::size_t max_branches) const;
   Attempt pieces(Connection connection, double range);
-  Attempt randomBranch(Side side, double range);
+  Attempt randomBranch(Side side, const Limits& limits);
+  double lengthThrough(const ompl::base::State* state) const;
   const Vertex& advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done);
   ompl::base::State* scratch();
 
   ompl::base::SpaceInformationPtr information_;
   ompl::base::StateSamplerPtr sampler_;
   std::array<RrtTree, 2> trees_;
+  std::array<std::vector<const ompl::base::State*>, 2> roots_;
   std::size_t rounds_ = 0;
   std::vector<Connection> connections_;
   std::vector<ompl::base::State*> scratch_;  // states of a round

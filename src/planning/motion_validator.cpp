@@ -1,24 +1,37 @@
 #include "gpu_planning_scene/planning/motion_validator.h"
 
+#include <string>
 #include <utility>
 
 #include "planning/group_space.h"
 
 namespace gpu_planning_scene::core
 {
+namespace
+{
+MotionCheckerOptions coarser(MotionCheckerOptions options)
+{
+  options.rule = MotionRule::Samples;
+  options.steps.revolute *= MotionValidator::kCoarser;
+  options.steps.prismatic *= MotionValidator::kCoarser;
+  return options;
+}
+}  // namespace
+
 MotionValidator::MotionValidator(const ompl::base::SpaceInformationPtr& information,
                                  std::shared_ptr<const PlanningScene> scene, std::shared_ptr<StateChecker> checker,
                                  const MotionCheckerOptions& options)
   : ompl::base::MotionValidator(information),
     space_(groupSpaceOf(*information, *scene)),
     reference_(referenceState(*scene)),
-    motions_(std::move(checker), scene->robot, space_->group().name, options)
+    motions_(checker, scene->robot, space_->group().name, options),
+    coarse_motions_(std::move(checker), scene->robot, space_->group().name, coarser(options))
 {
 }
 
 /// Motions that leave the bounds are not checked.
-std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& motions, MotionQuery query,
-                                                  const Termination& ptc) const
+std::vector<MotionVerdict> MotionValidator::check(const MotionChecker& checker, const std::vector<Motion>& motions,
+                                                  MotionQuery query, const Termination& ptc) const
 {
   std::vector<std::size_t> within;
   std::vector<double> starts;
@@ -33,11 +46,11 @@ std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& mot
     within.push_back(i);
   }
   const std::vector<MotionVerdict> checked =
-      motions_.check(starts.data(), ends.data(), within.size(), query, [&ptc] { return ptc(); });
+      checker.check(starts.data(), ends.data(), within.size(), query, [&ptc] { return ptc(); });
   std::vector<MotionVerdict> verdicts(motions.size());
   for (std::size_t i = 0; i < within.size(); ++i)
     verdicts[within[i]] = checked[i];
-  const std::lock_guard<std::mutex> lock(counters_);
+  const std::lock_guard<std::mutex> lock(mutex_);
   for (const MotionVerdict& verdict : verdicts)
     ++(verdict.valid ? valid_ : invalid_);
   return verdicts;
@@ -45,13 +58,13 @@ std::vector<MotionVerdict> MotionValidator::check(const std::vector<Motion>& mot
 
 bool MotionValidator::checkMotion(const ompl::base::State* from, const ompl::base::State* to) const
 {
-  return check({{from, to}}, MotionQuery::Valid, never()).front().valid;
+  return check(motions_, {{from, to}}, MotionQuery::Valid, never()).front().valid;
 }
 
 bool MotionValidator::checkMotion(const ompl::base::State* from, const ompl::base::State* to,
                                   std::pair<ompl::base::State*, double>& last_valid) const
 {
-  const MotionVerdict verdict = check({{from, to}}, MotionQuery::LastValid, never()).front();
+  const MotionVerdict verdict = check(motions_, {{from, to}}, MotionQuery::LastValid, never()).front();
   if (verdict.valid)
     return true;
   last_valid.second = verdict.last_valid;
@@ -72,13 +85,45 @@ std::vector<std::uint8_t> MotionValidator::validOf(const std::vector<MotionVerdi
 std::vector<std::uint8_t> MotionValidator::validateMotions(const std::vector<Motion>& motions,
                                                            const Termination& ptc) const
 {
-  return validOf(check(motions, MotionQuery::Valid, ptc));
+  if (!remembers_)
+    return validOf(check(motions_, motions, MotionQuery::Valid, ptc));
+  const auto key_of = [this](const Motion& motion)
+  {
+    std::vector<double> values;
+    std::string key;
+    for (const ompl::base::State* state : {motion.first, motion.second})
+    {
+      space_->copyToReals(values, state);
+      key.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(double));
+    }
+    return key;
+  };
+  std::vector<std::uint8_t> valid(motions.size(), 1);
+  std::vector<std::size_t> unknown;
+  std::vector<Motion> unknown_motions;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (std::size_t i = 0; i < motions.size(); ++i)
+      if (valid_motions_.count(key_of(motions[i])) == 0)
+      {
+        unknown.push_back(i);
+        unknown_motions.push_back(motions[i]);
+      }
+  }
+  const std::vector<MotionVerdict> verdicts = check(motions_, unknown_motions, MotionQuery::Valid, ptc);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (std::size_t i = 0; i < unknown.size(); ++i)
+    if (verdicts[i].valid)
+      valid_motions_.insert(key_of(unknown_motions[i]));
+    else
+      valid[unknown[i]] = 0;
+  return valid;
 }
 
-std::vector<std::uint8_t> MotionValidator::validateSamples(const std::vector<Motion>& motions,
-                                                           const Termination& ptc) const
+std::vector<std::uint8_t> MotionValidator::validateCoarsely(const std::vector<Motion>& motions,
+                                                            const Termination& ptc) const
 {
-  return validOf(check(motions, MotionQuery::Samples, ptc));
+  return validOf(check(coarse_motions_, motions, MotionQuery::Valid, ptc));
 }
 
 bool MotionValidator::validatePath(const ompl::geometric::PathGeometric& path, const Termination& ptc) const

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 #include <utility>
 
 #include <ompl/base/StateSpaceTypes.h>
@@ -39,10 +41,50 @@ using Lanes [[gnu::vector_size(kLanes * sizeof(double))]] = double;
   }
 }
 
+/// The number of the state with the least sum of (value - query)^2; of equal ones, the first. `blocks` >= 1.
+[[gnu::always_inline]] inline std::size_t leastSumOf(const double* values, std::size_t blocks, const double* query,
+                                                     std::size_t count)
+{
+  using Numbers [[gnu::vector_size(kLanes * sizeof(std::int64_t))]] = std::int64_t;
+  Lanes least = Lanes{} + std::numeric_limits<double>::infinity();
+  Numbers least_block{};
+  for (std::size_t block = 0; block < blocks; ++block, values += count * kLanes)
+  {
+    Lanes sum{};
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      Lanes difference;
+      std::memcpy(&difference, values + k * kLanes, sizeof difference);
+      difference -= query[k];
+      sum += difference * difference;
+    }
+    const Numbers is_less = sum < least;
+    least = is_less ? sum : least;
+    least_block = is_less ? Numbers{} + static_cast<std::int64_t>(block) : least_block;
+  }
+  std::size_t found = 0;
+  for (std::size_t lane = 1; lane < kLanes; ++lane)
+    if (std::pair(least[lane], least_block[lane]) < std::pair(least[found], least_block[found]))
+      found = lane;
+  return static_cast<std::size_t>(least_block[found]) * kLanes + found;
+}
+
+struct Functions
+{
+  void (*sum_squares)(const double* values, std::size_t blocks, std::size_t width, const double* query,
+                      std::size_t count, double* sums);
+  std::size_t (*least_sum)(const double* values, std::size_t blocks, const double* query, std::size_t count);
+};
+
 void sumSquaresBaseline(const double* values, std::size_t blocks, std::size_t width, const double* query,
                         std::size_t count, double* sums)
 {
   sumSquaresOf(values, blocks, width, query, count, sums);
+}
+
+std::size_t leastSumBaseline(const double* values, std::size_t blocks, const double* query, std::size_t count)
+{
+  return leastSumOf(values, blocks, query, count);
 }
 
 #ifdef __x86_64__
@@ -51,18 +93,26 @@ void sumSquaresBaseline(const double* values, std::size_t blocks, std::size_t wi
 {
   sumSquaresOf(values, blocks, width, query, count, sums);
 }
-#endif
 
-using SumSquares = decltype(&sumSquaresBaseline);
-
-/// The fastest function that the machine can run. All have the same results.
-SumSquares fastestSumSquares()
+[[gnu::target("avx2")]] std::size_t leastSumAvx2(const double* values, std::size_t blocks, const double* query,
+                                                 std::size_t count)
 {
-#ifdef __x86_64__
-  if (__builtin_cpu_supports("avx2"))
-    return sumSquaresAvx2;
+  return leastSumOf(values, blocks, query, count);
+}
 #endif
-  return sumSquaresBaseline;
+
+/// The fastest functions that the machine can run. All have the same results.
+const Functions& fastest()
+{
+  static const Functions chosen = []
+  {
+#ifdef __x86_64__
+    if (__builtin_cpu_supports("avx2"))
+      return Functions{sumSquaresAvx2, leastSumAvx2};
+#endif
+    return Functions{sumSquaresBaseline, leastSumBaseline};
+  }();
+  return chosen;
 }
 }  // namespace
 
@@ -104,7 +154,7 @@ void NearestState::add(const ob::State* state)
   space_->copyToReals(query_, state);
   const std::size_t lane = count_ % kLanes;
   if (lane == 0)
-    blocks_.resize(blocks_.size() + width_ * kLanes);
+    blocks_.resize(blocks_.size() + width_ * kLanes, std::numeric_limits<double>::infinity());  // far from all states
   double* const block = &blocks_[count_ / kLanes * width_ * kLanes];
   for (std::size_t k = 0; k < width_; ++k)
     block[k * kLanes + lane] = query_[k];
@@ -120,11 +170,10 @@ void NearestState::clear()
 /// Adds the distances in a part to `distances_`.
 void NearestState::addDistances(const Part& part)
 {
-  static const SumSquares sum_squares = fastestSumSquares();
   const double* const query = &query_[part.first];
   const std::size_t blocks = distances_.size() / kLanes;
   if (part.kind == Kind::Vector)
-    sum_squares(&blocks_[part.first * kLanes], blocks, width_, query, part.count, sums_.data());
+    fastest().sum_squares(&blocks_[part.first * kLanes], blocks, width_, query, part.count, sums_.data());
   for (std::size_t i = 0; i < distances_.size(); ++i)
   {
     const double* const values = &blocks_[(i / kLanes * width_ + part.first) * kLanes + i % kLanes];
@@ -155,6 +204,8 @@ std::size_t NearestState::nearest(const ob::State* state)
 {
   space_->copyToReals(query_, state);
   const std::size_t blocks = (count_ + kLanes - 1) / kLanes;
+  if (parts_.size() == 1 && parts_[0].kind == Kind::Vector)
+    return fastest().least_sum(blocks_.data(), blocks, query_.data(), width_);
   distances_.assign(blocks * kLanes, 0.0);
   sums_.resize(blocks * kLanes);
   for (const Part& part : parts_)

@@ -18,6 +18,7 @@
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "gpu_planning_scene/planning/motion_validator.h"
 #include "gpu_planning_scene/planning/path_length_objective.h"
+#include "gpu_planning_scene/planning/path_optimizer.h"
 #include "gpu_planning_scene/planning/path_shortcutter.h"
 #include "gpu_planning_scene/planning/state_validity_checker.h"
 #include "model/joint_limits.h"
@@ -75,6 +76,9 @@ void validateQuery(const PlanningScene& scene, const PlanningQuery& query)
   constexpr double kMaxSeconds = 1e9;  // OMPL's clock counts nanoseconds in integers
   if (!(query.seconds > 0.0 && query.seconds <= kMaxSeconds))
     throw Error("the planning time is " + std::to_string(query.seconds) + " s; it must be above 0 and at most 1e9");
+  if (!(query.optimize_seconds >= 0.0 && query.optimize_seconds <= kMaxSeconds))
+    throw Error("the time to optimize is " + std::to_string(query.optimize_seconds) +
+                " s; it must be at least 0 and at most 1e9");
 }
 
 std::string seconds(double value)
@@ -117,6 +121,7 @@ class Plan
       space_->projectOnto(query.projection);
     information_->setStateValidityChecker(std::make_shared<StateValidityChecker>(information_, scene_, checker_));
     validator_ = std::make_shared<MotionValidator>(information_, scene_, checker_, query.motions);
+    validator_->rememberValidMotions();
     information_->setMotionValidator(validator_);
     information_->setup();
     space_->copyFromRow(query.start.data(), start_.get());
@@ -136,7 +141,7 @@ class Plan
 
   void findPath(const PlannerFactory& factory, const std::vector<ob::ScopedState<>>& goal_states);
   std::string faultOf(const og::PathGeometric* path, const ob::Goal* goals) const;
-  void finish(og::PathGeometric& path, const std::string& planner);
+  void finish(og::PathGeometric& path, const ob::GoalPtr& goals, const std::string& planner);
 
   /// Why the planner had little time, for a message. Empty if it had most of the query's time.
   std::string reasonOfDelay() const
@@ -216,11 +221,12 @@ void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedS
     result_.status = PlanningStatus::Approximate;
     result_.message += "; the path ends " + std::to_string(definition->getSolutionDifference()) + " from a goal";
   }
-  finish(*path, planner->getName());
+  finish(*path, exact ? goals : nullptr, planner->getName());
 }
 
-/// Simplifies the path, then checks the result once more, because not every planner checks all motions of its path.
-void Plan::finish(og::PathGeometric& path, const std::string& planner)
+/// Simplifies and optimizes the path, then checks the result once more, because not every planner checks all motions of
+/// its path. `goals`: null if the path does not end at one of them.
+void Plan::finish(og::PathGeometric& path, const ob::GoalPtr& goals, const std::string& planner)
 {
   constexpr double kPart = 0.1;   // of the planning time
   constexpr double kLeast = 0.1;  // seconds
@@ -228,6 +234,8 @@ void Plan::finish(og::PathGeometric& path, const std::string& planner)
   const double left = std::max({kLeast, kPart * query_.seconds, query_.seconds - result_.planning_seconds});
   if (query_.simplify)
     PathShortcutter(information_).shorten(path, within(left));
+  if (query_.optimize_seconds > 0.0 && goals)
+    PathOptimizer(information_, goals).improve(path, within(query_.optimize_seconds));
   result_.simplification_seconds = secondsSince(start);
   const bool valid = validator_->validatePath(path, within(left));
   result_.planning_seconds += secondsSince(start) - result_.simplification_seconds;

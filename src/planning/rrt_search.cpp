@@ -81,8 +81,6 @@ const RrtTree::Vertex* RrtSearch::closest() const
 bool RrtSearch::isProven(const MotionValidator& validator, const BidirectionalTree::Meeting& meeting,
                          const ob::PlannerTerminationCondition& ptc)
 {
-  if (validator.rule() == MotionRule::Samples)
-    return true;
   std::vector<MotionValidator::Motion> motions;
   std::vector<std::pair<BidirectionalTree::Side, const Vertex*>> ends;  // the later vertex of each motion within a tree
   const auto add = [&](BidirectionalTree::Side side, const Vertex* vertex)
@@ -142,9 +140,9 @@ RrtSearch::Path RrtSearch::provenPath(const MotionValidator& validator, const ob
 }
 
 RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
-                                    std::size_t max_branches, double range, const ob::PlannerTerminationCondition& ptc)
+                                    const BidirectionalTree::Limits& limits, const ob::PlannerTerminationCondition& ptc)
 {
-  for (const BidirectionalTree::Meeting& meeting : trees_.grow(validator, max_branches, range, ptc))
+  for (const BidirectionalTree::Meeting& meeting : trees_.grow(validator, limits, ptc))
     addCandidate(goal, meeting);
   lookAtNewVertices(goal);
   return provenPath(validator, ptc);

@@ -26,7 +26,7 @@ class RrtSearch
 
   /// Grows the trees by one round. Returns a solution, or null.
   Path runRound(const MotionValidator& validator, const ompl::base::GoalSampleableRegion& goal,
-                std::size_t max_branches, double range, const ompl::base::PlannerTerminationCondition& ptc);
+                const BidirectionalTree::Limits& limits, const ompl::base::PlannerTerminationCondition& ptc);
 
   /// Proves the paths through the meetings found so far, shortest first. Returns the first path that is proven before
   /// `ptc` returns true, or null. Invalid motions are removed from the trees. Motions without a verdict stay.

@@ -16,6 +16,7 @@
 #include <ompl/geometric/planners/sbl/SBL.h>
 #include <pluginlib/class_list_macros.hpp>
 
+#include "gpu_planning_scene/planning/anytime_batch.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/planner_factory.h"
 
@@ -48,6 +49,7 @@ ompl::base::PlannerPtr FactoryOf<ompl::geometric::RRTstar>::create(
 #define GPS_EXPORT_PLANNER(planner) \
   PLUGINLIB_EXPORT_CLASS(gpu_planning_scene::core::FactoryOf<planner>, gpu_planning_scene::core::PlannerFactory)
 
+GPS_EXPORT_PLANNER(gpu_planning_scene::core::AnytimeBatch)
 GPS_EXPORT_PLANNER(gpu_planning_scene::core::BatchRrtConnect)
 GPS_EXPORT_PLANNER(ompl::geometric::BITstar)
 GPS_EXPORT_PLANNER(ompl::geometric::BiEST)

@@ -63,9 +63,49 @@ TEST_F(MotionValidatorTest, FindsNoMotionValidThatIsNotDecidedInTime)
   const auto to = robot.at({-1.0, 1.0});
   const auto never = ob::plannerAlwaysTerminatingCondition();
   EXPECT_EQ(robot.validator().validateMotions({{from.get(), to.get()}}, never), std::vector<std::uint8_t>{0});
-  EXPECT_EQ(robot.validator().validateSamples({{from.get(), to.get()}}, never), std::vector<std::uint8_t>{0});
+  EXPECT_EQ(robot.validator().validateCoarsely({{from.get(), to.get()}}, never), std::vector<std::uint8_t>{0});
   EXPECT_FALSE(robot.validator().validatePath(robot.path({{-1.0, 0.0}, {-1.0, 1.0}}), never));
   EXPECT_EQ(robot.validator().statesChecked(), 0u);
+}
+
+TEST_F(MotionValidatorTest, ChecksAMotionAgainUnlessItRemembersValidOnes)
+{
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  auto validator = std::make_shared<MotionValidator>(robot.information(), robot.scene(), robot.checker());
+  const auto states_for = [&](const Position& from, const Position& to, std::uint8_t expected)
+  {
+    const auto a = robot.at(from);
+    const auto b = robot.at(to);
+    const std::uint64_t before = validator->statesChecked();
+    EXPECT_EQ(validator->validateMotions({{a.get(), b.get()}}), std::vector<std::uint8_t>{expected});
+    return validator->statesChecked() - before;
+  };
+  EXPECT_GT(states_for({-1.0, 0.0}, {-1.0, 1.0}, 1), 0U);
+  EXPECT_GT(states_for({-1.0, 0.0}, {-1.0, 1.0}, 1), 0U);
+  validator->rememberValidMotions();
+  EXPECT_GT(states_for({-1.0, 0.0}, {-1.0, 1.0}, 1), 0U);
+  EXPECT_EQ(states_for({-1.0, 0.0}, {-1.0, 1.0}, 1), 0U);
+  EXPECT_TRUE(validator->validatePath(robot.path({{-1.0, 0.0}, {-1.0, 1.0}})));
+  EXPECT_GT(states_for({-1.0, 1.0}, {-1.0, 0.0}, 1), 0U) << "the way back is another motion";
+  EXPECT_GT(states_for({-1.0, 0.0}, {1.0, 0.0}, 0), 0U);
+  EXPECT_GT(states_for({-1.0, 0.0}, {1.0, 0.0}, 0), 0U) << "invalid motions are not remembered";
+  states_for({-1.0, 0.0}, {-1.0, nan}, 0);
+  states_for({nan, 0.0}, {-1.0, 1.0}, 0);
+}
+
+TEST_F(MotionValidatorTest, ChecksCoarselyAtFourTimesTheSteps)
+{
+  MotionCheckerOptions options;
+  options.steps.prismatic = 0.1;
+  const PointRobot other({{-0.52, -3.0, -0.48, 3.0}}, options);
+  const MotionValidator& validator = other.validator();
+  const auto from = other.at({-0.8, 0.0});
+  const auto to = other.at({0.0, 0.0});
+  EXPECT_EQ(validator.validateMotions({{from.get(), to.get()}}), std::vector<std::uint8_t>{0});
+  const std::uint64_t before = validator.statesChecked();
+  EXPECT_EQ(validator.validateCoarsely({{from.get(), to.get()}}), std::vector<std::uint8_t>{1})
+      << "-0.8, -0.4 and 0 are beside the wall";
+  EXPECT_EQ(3U, validator.statesChecked() - before);
 }
 
 TEST_F(MotionValidatorTest, GivesTheLastValidStateOfAnInvalidMotionAlone)

@@ -53,6 +53,15 @@ class Planning(Case):
         path(None)
         self.assertEqual(expected, path(3))
 
+    def test_a_path_is_optimized_for_the_time_that_is_given(self):
+        checker = gps.StateChecker(arm_scene(), device="cpu")
+        start, goal = np.array([[0.7, 0.6, 0.6, 0, 0.6, 0, 0.03], [2.5, 0.6, 0.6, 0, 0.6, 0, 0.03]])
+        result = gps.plan_motion(checker, "arm", start, goal, seconds=20.0, optimize=0.2)
+        self.assertEqual(gps.PlanningStatus.SOLVED, result.status)
+        self.assertGreaterEqual(result.simplification_seconds, 0.2)
+        self.assert_one_line(gps.Error, "the time to optimize is -1", gps.plan_motion, checker, "arm", start, goal,
+                             optimize=-1.0)
+
     def test_a_base_is_planned_for_within_the_workspace(self):
         srdf = ('<robot name="rail"><virtual_joint name="base" type="planar" parent_frame="map" child_link="rail"/>'
                 '<group name="all"><joint name="base"/></group></robot>')

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 
 #include <ompl/base/Planner.h>
@@ -46,6 +47,10 @@ class BatchRrtConnect : public ompl::base::Planner
   void setMaxRounds(unsigned int rounds) { max_rounds_ = rounds; }
   unsigned int getMaxRounds() const { return max_rounds_; }
 
+  /// Random states are drawn among those through which a path from a start to a goal can be shorter than this; by
+  /// default, among all.
+  void setLargestLength(double length) { largest_length_ = length; }
+
   /// Throws ompl::Exception if the space information has no gpu_planning_scene::core::MotionValidator.
   void setup() override;
   void clear() override;
@@ -67,6 +72,7 @@ class BatchRrtConnect : public ompl::base::Planner
   double range_ = 0.0;
   unsigned int branches_ = 64;
   unsigned int max_rounds_ = 0;
+  double largest_length_ = std::numeric_limits<double>::infinity();
   std::unique_ptr<RrtSearch> search_;  // everything that clear() deletes
 };
 }  // namespace gpu_planning_scene::core

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -41,25 +44,36 @@ class MotionValidator : public ompl::base::MotionValidator
   /// Validates many motions in one call. Returns one byte per motion: 1 if the motion is valid, else 0. When `ptc`
   /// returns true, all motions without a verdict get 0.
   std::vector<std::uint8_t> validateMotions(const std::vector<Motion>& motions, const Termination& ptc = never()) const;
-  /// Checks only the samples of many motions in one call. Returns one byte per motion: 1 if all its samples are free,
-  /// else 0. Planners that prove only the motions of a solution use this function: see MotionRule.
-  std::vector<std::uint8_t> validateSamples(const std::vector<Motion>& motions, const Termination& ptc = never()) const;
+  /// Checks samples of many motions in one call, at kCoarser times the steps of the options, whatever the rule is.
+  /// Returns one byte per motion: 1 if these samples are free, else 0. Planners use this function if they validate only
+  /// the motions of a solution by the rule.
+  std::vector<std::uint8_t> validateCoarsely(const std::vector<Motion>& motions,
+                                             const Termination& ptc = never()) const;
+  static constexpr double kCoarser = 4.0;
   MotionRule rule() const { return motions_.rule(); }
+  /// From now on, a motion that validateMotions or validatePath has found valid counts as valid again, without a check.
+  /// So the last check of a path costs nothing if its planner has proven the path. Call this only if the checker keeps
+  /// its scene.
+  void rememberValidMotions() { remembers_ = true; }
   /// Checks all motions of the path in one batch. Returns true if all motions are valid. A path with one state is valid
   /// if the state is valid. An empty path is not valid.
   bool validatePath(const ompl::geometric::PathGeometric& path, const Termination& ptc = never()) const;
 
   /// Number of states checked so far.
-  std::uint64_t statesChecked() const { return motions_.statesChecked(); }
+  std::uint64_t statesChecked() const { return motions_.statesChecked() + coarse_motions_.statesChecked(); }
 
  private:
   static Termination never() { return ompl::base::plannerNonTerminatingCondition(); }
-  std::vector<MotionVerdict> check(const std::vector<Motion>& motions, MotionQuery query, const Termination& ptc) const;
+  std::vector<MotionVerdict> check(const MotionChecker& checker, const std::vector<Motion>& motions, MotionQuery query,
+                                   const Termination& ptc) const;
   static std::vector<std::uint8_t> validOf(const std::vector<MotionVerdict>& verdicts);
 
   std::shared_ptr<const GroupStateSpace> space_;
   std::vector<double> reference_;  // one value per variable of the robot
   MotionChecker motions_;
-  mutable std::mutex counters_;  // for OMPL's counters of valid and invalid motions
+  MotionChecker coarse_motions_;
+  std::atomic<bool> remembers_{false};
+  mutable std::mutex mutex_;  // guards the set below, and OMPL's counters of valid and invalid motions
+  mutable std::unordered_set<std::string> valid_motions_;  // the bytes of the values of the start and the end
 };
 }  // namespace gpu_planning_scene::core

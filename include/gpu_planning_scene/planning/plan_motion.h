@@ -29,6 +29,9 @@ struct PlanningQuery
   /// planning has left, a tenth of `seconds`, 0.1 s.
   double seconds = 5.0;
   bool simplify = true;
+  /// Seconds, after simplification, in which PathOptimizer makes the path shorter; at least 0 and at most 1e9. It ends
+  /// earlier if the path is the straight motion to the only goal. A path that ends at no goal stays as it is.
+  double optimize_seconds = 0.0;
   MotionCheckerOptions motions;
   std::map<std::string, std::string> parameters = {};  ///< of the planner, by OMPL's names
   std::vector<std::string> projection = {};            ///< joints of the planner's projection; empty: the default
@@ -55,9 +58,9 @@ struct PlanningResult
   PlanningStatus status = PlanningStatus::NoSolution;
   std::string message;                         ///< the fault, in one line; empty if the status is Solved
   std::vector<std::vector<double>> waypoints;  ///< rows of all variables; none unless Solved or Approximate
-  double planning_seconds = 0.0;  ///< with the check of the start and the goals, and the last check of the path
-  double simplification_seconds = 0.0;
-  double checking_seconds = 0.0;  ///< part of the two times above that the checker took
+  double planning_seconds = 0.0;        ///< with the check of the start and the goals, and the last check of the path
+  double simplification_seconds = 0.0;  ///< with the time of PlanningQuery::optimize_seconds
+  double checking_seconds = 0.0;        ///< part of the two times above that the checker took
   std::uint64_t states_checked = 0;
   std::uint64_t revision = 0;  ///< of the checked scene
 };
@@ -66,8 +69,8 @@ struct PlanningResult
 /// is not verified. `stop` is called from time to time; when it returns true, planning ends early, as soon as the
 /// planner reacts. Thread-safe if each call has a checker of its own. Throws Error for an unknown group, parameter or
 /// projection joint; for a row with a wrong length or a value that is not finite; for an angle of the start or a
-/// goal beyond 1e6 rad (continuous and planar joints); without a goal; and unless the time is above 0 and at most 1e9
-/// s. Errors of GroupStateSpace and MotionChecker, and exceptions of the planner, pass through.
+/// goal beyond 1e6 rad (continuous and planar joints); without a goal; and unless the times are within their limits.
+/// Errors of GroupStateSpace and MotionChecker, and exceptions of the planner, pass through.
 PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,
                           const PlannerFactory& factory, const std::function<bool()>& stop = {});

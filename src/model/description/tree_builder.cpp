@@ -69,7 +69,8 @@ class TreeBuilder
     if (result.shapes.empty() && urdf_.xml.hasChild("link", link.name, "visual"))
     {
       warnings_.push_back(where + ": link '" + link.name +
-                          "' has visual but no collision geometry: it collides with nothing");
+                          "' has visual but no collision geometry: it collides with nothing; if it should, " +
+                          "give it a <collision>");
     }
     tree_.links.push_back(std::move(result));
   }

@@ -173,6 +173,10 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
     throw Error("allowed_planning_time is " + std::to_string(query.seconds) + " s; the limit is " +
                 std::to_string(options.max_seconds) + " (limits/planning_time)");
   query.simplify = request.simplify;
+  query.optimize_seconds = request.optimize;
+  if (query.optimize_seconds > options.max_seconds)
+    throw Error("optimize is " + std::to_string(query.optimize_seconds) + " s; the limit is " +
+                std::to_string(options.max_seconds) + " (limits/planning_time)");
   query.motions = options.motions;
   if (!request.motion_rule.empty())
     query.motions.rule = motionRuleFromName(request.motion_rule);

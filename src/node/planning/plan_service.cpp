@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include <ros/console.h>
+
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
 #include "node/endpoints/respond.h"
@@ -89,6 +91,25 @@ PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, SceneSto
     admission_(options.at_once, options.max_waiting),
     checkers_(std::move(make_checker))
 {
+}
+
+void PlanService::prepare()
+{
+  const std::shared_ptr<const PlanningScene> scene = store_.snapshot().scene;
+  if (scene->robot->groups().empty())
+    return;
+  try
+  {
+    for (const Group& group : scene->robot->groups())
+      plugins_.find(configs_.find("", group.name).type, configs_.names());
+    CheckerPool::Lease lease(checkers_, scene);
+    lease.checker()->check(scene->robot->defaultState().data(), 1, "");
+    lease.giveBack();
+  }
+  catch (const std::exception& error)
+  {
+    ROS_DEBUG_STREAM("plans are not prepared: " << error.what());
+  }
 }
 
 void PlanService::stop()

@@ -29,6 +29,10 @@ class PlanService
               CheckServer::MakeChecker make_checker, const MemoryGuard& memory, PathPublisher& paths,
               const PlanServiceOptions& options);
 
+  /// Loads the planners that the groups have by default, and makes a checker, so that the first request takes about as
+  /// long as later ones. What fails here fails again in a request, which then says why.
+  void prepare();
+
   PlanMotion::Response plan(const PlanMotion::Request& request);
 
   /// Ends running planners. Running and queued requests get an Error "shutting down".

@@ -87,13 +87,25 @@ class Planning : public RunningNode
 TEST_F(Planning, FindsThePathThroughASlotByPlannersOfAnyName)
 {
   for (const std::string name : {"", "Batch", "RRTConnectkConfigDefault", "KPIECEkConfigDefault",
-                                 "gpu_planning_scene/BatchRrtConnect", "geometric::PRM", "geometric::BITstar"})
+                                 "gpu_planning_scene/BatchRrtConnect", "gpu_planning_scene/AnytimeBatch", "geometric::PRM",
+                                 "geometric::BITstar"})
   {
     SCOPED_TRACE(name);
     PlanMotion::Request wanted = request();
     wanted.planner = name;
     expectSolved(plan(wanted), wanted.start, wanted.goals);
   }
+}
+
+TEST_F(Planning, OptimizesForAsLongAsTheRequestSays)
+{
+  PlanMotion::Request wanted = request();
+  wanted.optimize = 0.2;
+  const Response response = plan(wanted);
+  expectSolved(response, wanted.start, wanted.goals);
+  EXPECT_GE(response.simplification_time, 0.2);
+  wanted.optimize = 1e6;
+  expectStatus(wanted, Response::BAD_REQUEST, "optimize is 1000000.000000 s; the limit is");
 }
 
 TEST_F(Planning, InAChangedSceneOfTheRequestLeavesTheSceneAsItIs)

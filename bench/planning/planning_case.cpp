@@ -1,0 +1,55 @@
+#include "planning/planning_case.h"
+
+#include <iostream>
+#include <vector>
+
+#include "collision/checkers/cpu_scene.h"
+#include "collision/checkers/open_checker.h"
+#include "collision/filter/proofs/proof_worker.h"
+
+namespace gpu_planning_scene::core::benchmark
+{
+namespace ob = ompl::base;
+
+PlanningCase::PlanningCase(const PlanningProblem& problem, const std::shared_ptr<StateChecker>& checker,
+                           MotionRule rule)
+  : space(std::make_shared<GroupStateSpace>(problem.scene->robot, problem.group)),
+    information(std::make_shared<ob::SpaceInformation>(space)),
+    definition(std::make_shared<ob::ProblemDefinition>(information))
+{
+  options.rule = rule;
+  states = std::make_shared<StateValidityChecker>(information, problem.scene, checker);
+  motions = std::make_shared<MotionValidator>(information, problem.scene, checker, options);
+  information->setStateValidityChecker(states);
+  information->setMotionValidator(motions);
+  information->setup();
+  ob::ScopedState<> start(space);
+  ob::ScopedState<> goal(space);
+  space->copyFromRow(problem.start.data(), start.get());
+  space->copyFromRow(problem.goal.data(), goal.get());
+  definition->setStartAndGoalStates(start, goal);
+}
+
+std::shared_ptr<StateChecker> ProblemChecker::in(const PlanningProblem& problem)
+{
+  if (checker_)
+    checker_->setScene(problem.scene);
+  else
+  {
+    BatchCheckerOptions options;
+    options.device = device_;
+    checker_ = openWithFallback(problem.scene, options,
+                                [](const std::string& warning) { std::cerr << "warning: " << warning << std::endl; });
+    std::cout << "device: " << checker_->deviceName() << std::endl;
+  }
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < kStatesBeforeProofs; ++i)
+    rows.insert(rows.end(), problem.start.begin(), problem.start.end());
+  checker_->check(rows.data(), kStatesBeforeProofs, problem.group);
+  checker_->check(rows.data(), kStatesBeforeProofs, problem.group);
+  waitForProofs();
+  checker_->check(rows.data(), 64, problem.group);
+  checker_->report(problem.group);
+  return checker_;
+}
+}  // namespace gpu_planning_scene::core::benchmark
