@@ -70,10 +70,11 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   known = &store;
   const CheckServer::MakeChecker make_checker = diagnostics.watched(makeResilientCheckers(
       checker_options, resilience, open_device, [](const std::string& warning) { ROS_WARN_STREAM(warning); }));
-  // A CPU checks few states as fast as a device, and its checker needs no memory of a device.
-  const CheckServer::MakeChecker make_relief = [&checker_options](std::shared_ptr<const PlanningScene> its_scene)
+  // A CPU checks few states as fast as a device, on the thread of the caller, and its checker needs no memory of a
+  // device.
+  const CheckServer::MakeChecker make_cpu_checker = [&checker_options](std::shared_ptr<const PlanningScene> its_scene)
   { return std::make_shared<CpuChecker>(std::move(its_scene), checker_options); };
-  CheckServer server(store, make_checker, server_options, make_relief);
+  CheckServer server(store, make_checker, server_options, make_cpu_checker);
   const SceneWatch watch(own, store, server);
 
   const MemoryGuard memory(options.max_memory);
@@ -84,7 +85,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
                         std::chrono::seconds(1), server_options.max_waiting_requests},
                        look_up);
   PathPublisher paths(own, options.marker_rate, options.marker_triangles);
-  PlanService plans(own, store, look_up, make_checker, memory, paths, plan_options);
+  PlanService plans(own, store, look_up, make_cpu_checker, memory, paths, plan_options);
   plans.prepare();
   SceneServices changes(store, look_up, memory, setup);
   CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);

@@ -1,6 +1,10 @@
 #include "node/planning/plan_service.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <random>
 #include <utility>
+#include <vector>
 
 #include <ros/console.h>
 
@@ -15,6 +19,8 @@ namespace gpu_planning_scene::core
 namespace
 {
 using Response = PlanMotion::Response;
+
+constexpr std::size_t kStatesToPrepare = 512;  // as in a round of the batch planner
 
 std::uint8_t statusOf(PlanningStatus status)
 {
@@ -60,17 +66,13 @@ class BadRequest : public Error
   using Error::Error;
 };
 
-/// Runs work in which every Error except DeviceLost comes from the request. Rethrows these errors as BadRequest.
+/// Runs work in which every Error comes from the request. Rethrows these errors as BadRequest.
 template <class Work>
 auto asRequestError(const Work& work)
 {
   try
   {
     return work();
-  }
-  catch (const DeviceLost&)
-  {
-    throw;
   }
   catch (const Error& error)
   {
@@ -100,10 +102,21 @@ void PlanService::prepare()
     return;
   try
   {
-    for (const Group& group : scene->robot->groups())
-      plugins_.find(configs_.find("", group.name).type, configs_.names());
     CheckerPool::Lease lease(checkers_, scene);
-    lease.checker()->check(scene->robot->defaultState().data(), 1, "");
+    const std::size_t width = scene->robot->variables().size();
+    std::vector<double> states(kStatesToPrepare * width);
+    std::mt19937_64 generator(1);
+    for (std::size_t i = 0; i < kStatesToPrepare; ++i)
+      scene->robot->randomState(generator, scene->robot->defaultState().data(), &states[i * width]);
+    const JointNeighbourhood unmoved{std::vector<JointTravel>(scene->robot->joints().size()),
+                                     std::vector<std::uint32_t>(kStatesToPrepare)};
+    for (const Group& group : scene->robot->groups())
+    {
+      plugins_.find(configs_.find("", group.name).type, configs_.names());
+      // The first check loads the proofs, and the second one finds the bounds of motions.
+      lease.checker()->check(states.data(), kStatesToPrepare, group.name);
+      lease.checker()->check(states.data(), kStatesToPrepare, group.name, &unmoved);
+    }
     lease.giveBack();
   }
   catch (const std::exception& error)

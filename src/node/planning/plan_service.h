@@ -23,14 +23,15 @@ namespace gpu_planning_scene::core
 class PlanService
 {
  public:
-  /// `lookup`: finds the frames of a request's scene_diff that the scene does not have. Throws Error for wrong values
-  /// in ~planners.
+  /// `make_checker`: makes checkers whose errors are those of requests. Each check should begin on the caller's thread,
+  /// because a planner checks some hundred states at a time. `lookup`: finds the frames of a request's scene_diff that
+  /// the scene does not have. Throws Error for wrong values in ~planners.
   PlanService(ros::NodeHandle& own, const SceneStore& store, SceneStore::Lookup lookup,
               CheckServer::MakeChecker make_checker, const MemoryGuard& memory, PathPublisher& paths,
               const PlanServiceOptions& options);
 
-  /// Loads the planners that the groups have by default, and makes a checker, so that the first request takes about as
-  /// long as later ones. What fails here fails again in a request, which then says why.
+  /// Loads the planners that the groups have by default, and prepares a checker for each group, so that the first
+  /// request takes about as long as later ones. What fails here fails again in a request, which then says why.
   void prepare();
 
   PlanMotion::Response plan(const PlanMotion::Request& request);
