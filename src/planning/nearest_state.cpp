@@ -99,6 +99,18 @@ std::size_t leastSumBaseline(const double* values, std::size_t blocks, const dou
 {
   return leastSumOf(values, blocks, query, count);
 }
+
+[[gnu::target("avx512f")]] void sumSquaresAvx512(const double* values, std::size_t blocks, std::size_t width,
+                                                 const double* query, std::size_t count, double* sums)
+{
+  sumSquaresOf(values, blocks, width, query, count, sums);
+}
+
+[[gnu::target("avx512f")]] std::size_t leastSumAvx512(const double* values, std::size_t blocks, const double* query,
+                                                      std::size_t count)
+{
+  return leastSumOf(values, blocks, query, count);
+}
 #endif
 
 /// The fastest functions that the machine can run. All have the same results.
@@ -107,6 +119,8 @@ const Functions& fastest()
   static const Functions chosen = []
   {
 #ifdef __x86_64__
+    if (__builtin_cpu_supports("avx512f"))
+      return Functions{sumSquaresAvx512, leastSumAvx512};
     if (__builtin_cpu_supports("avx2"))
       return Functions{sumSquaresAvx2, leastSumAvx2};
 #endif

@@ -65,33 +65,25 @@ PathOptimizer::PathOptimizer(const ob::SpaceInformationPtr& information, ob::Goa
 
 void PathOptimizer::improve(PathGeometric& path, const ob::PlannerTerminationCondition& ptc, const Found& found)
 {
-  ShortcutterOptions whole;
-  PathShortcutter shortcutter(information_, whole);
+  PathShortcutter shortcutter(information_);
   Search search(information_, path.getState(0), goal_);
-  double best = path.length();
-  const auto take = [&](PathGeometric& candidate)
+  double length = path.length();
+  const auto take_shortened = [&](PathGeometric candidate)
   {
-    const double length = candidate.length();
-    if (length >= best)
+    shortcutter.shorten(candidate, ptc);
+    if (candidate.length() >= length)
       return;
-    best = length;
     path = candidate;
+    length = path.length();
     if (found)
       found(path);
   };
-  PathGeometric current = path;
-  shortcutter.shorten(current, ptc);
-  take(current);
+  take_shortened(path);
   while (!ptc && !(path.getStateCount() == 2 && hasOneGoal(*goal_)))
   {
-    if (const auto other = search.next(best, ptc))
-    {
-      shortcutter.shorten(*other, ptc);
-      take(*other);
-    }
-    current = path;
-    shortcutter.shorten(current, ptc);
-    take(current);
+    if (const auto other = search.next(length, ptc))
+      take_shortened(*other);
+    take_shortened(path);
   }
 }
 }  // namespace gpu_planning_scene::core

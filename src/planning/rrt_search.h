@@ -13,7 +13,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// The search of BatchRrtConnect. Two trees grow by motions whose samples are free. If they meet, there is a path
+/// The search of BatchRrtConnect. Two trees grow by motions that are checked coarsely. If they meet, there is a path
 /// through the meeting; its motions are proven by the validator's own rule. Not thread-safe.
 class RrtSearch
 {

@@ -18,9 +18,9 @@ class RrtSearch;
 ///     next round, the other tree grows towards each of the new vertices, in segments no longer than the range and as
 ///     far as they are valid.
 /// If the trees meet in several places at once, the shortest path is the solution.
-/// The trees grow by motions whose samples are free. If the validator's rule is MotionRule::Bound, the motions of a
-/// path are proven when the path is found. A motion that is not proven is removed from its tree, with everything that
-/// grew from it. Not thread-safe.
+/// The trees grow by motions that MotionValidator::validateCoarsely accepts. When a path is found, its motions are
+/// validated by the validator's rule. A motion that fails is removed from its tree, with everything that grew from it.
+/// Not thread-safe.
 ///
 /// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
 /// Balanced trees: S. M. LaValle: Planning Algorithms. Cambridge University Press, 2006, section 5.5.3.
