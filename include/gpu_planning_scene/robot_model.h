@@ -122,6 +122,9 @@ struct SrdfCollisions
   std::vector<LinkPair> disabled;        ///< disable_collisions
   std::vector<LinkPair> enabled;         ///< enable_collisions
   std::vector<int> disabled_by_default;  ///< disable_default_collisions
+  /// disable_collisions with the reason Never that are checked, because limits are wider than those for which these
+  /// pairs were found free.
+  std::vector<LinkPair> unproven;
 };
 
 struct RobotModelOptions

@@ -94,6 +94,19 @@ std::optional<ValueOutsideLimits> findFarTranslation(const RobotModel& robot, co
 }
 }  // namespace
 
+std::optional<ValueOutsideLimits> findTurnedBase(const RobotModel& robot, const std::vector<int>& columns,
+                                                 const double* rows, std::size_t count)
+{
+  for (const Joint& joint : robot.joints())
+    for (std::size_t k = 0; joint.type == JointType::Planar && k < columns.size(); ++k)
+      for (std::size_t row = 0; columns[k] == joint.first_variable + 2 && row < count; ++row)
+        if (const double value = rows[row * columns.size() + k]; std::abs(value) > 2.0 * kPi)
+          return ValueOutsideLimits{row, "joint '" + robot.variables()[static_cast<std::size_t>(columns[k])].name +
+                                             "' is " + number(value) + " rad, more than one turn; " + number(value) +
+                                             " degrees are " + number(value * kPi / 180.0) + " rad"};
+  return std::nullopt;
+}
+
 void ValuesOutsideLimits::add(int variable, double value)
 {
   if (count_++ == 0)
@@ -143,7 +156,12 @@ std::optional<ValueOutsideLimits> findValueOutsideLimits(const RobotModel& robot
         outside.add(column, value);
       }
   if (outside.count() == 0)
-    return findFarTranslation(robot, columns, rows - count * columns.size(), count);
+  {
+    const double* const first = rows - count * columns.size();
+    if (auto far = findFarTranslation(robot, columns, first, count))
+      return far;
+    return findTurnedBase(robot, columns, first, count);
+  }
   return ValueOutsideLimits{first_row, outside.text()};
 }
 }  // namespace gpu_planning_scene::core

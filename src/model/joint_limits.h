@@ -42,15 +42,21 @@ class ValuesOutsideLimits
 };
 
 /// The first value of a table that is outside its joint limits; or, if all are within them, the first translation of a
-/// planar or floating joint beyond kExactRange.
+/// planar or floating joint beyond kExactRange, or findTurnedBase.
 struct ValueOutsideLimits
 {
   std::size_t row;
-  std::string text;  ///< the line of ValuesOutsideLimits for all such values of the table, or a line about the range
+  std::string text;  ///< the line of ValuesOutsideLimits for all such values of the table, or a line about the range or
+                     ///< the angle
 };
 
+/// The first angle of a planar joint that is more than one turn and so may be in degrees. `rows`: `count` rows of
+/// values for the variables `columns`.
+std::optional<ValueOutsideLimits> findTurnedBase(const RobotModel& robot, const std::vector<int>& columns,
+                                                 const double* rows, std::size_t count);
+
 /// `rows`: `count` rows of values for the variables `columns`. No value: nothing is outside the limits by more than
-/// 1e-6 (radians, metres), or beyond kExactRange.
+/// 1e-6 (radians, metres), or beyond kExactRange, and findTurnedBase finds nothing.
 std::optional<ValueOutsideLimits> findValueOutsideLimits(const RobotModel& robot, const std::vector<int>& columns,
                                                          const double* rows, std::size_t count);
 }  // namespace gpu_planning_scene::core

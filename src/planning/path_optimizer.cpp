@@ -19,6 +19,8 @@ using ompl::geometric::PathGeometric;
 // Between two turns of shortcuts, a search runs for so many rounds.
 constexpr unsigned int kRoundsOfSearch = 16;
 
+constexpr double kRounding = 1e-12;  // of a path's length: exceeds the rounding of its sum
+
 bool hasOneGoal(const ob::Goal& goal)
 {
   const auto* states = dynamic_cast<const ob::GoalStates*>(&goal);
@@ -71,7 +73,9 @@ void PathOptimizer::improve(PathGeometric& path, const ob::PlannerTerminationCon
   const auto take_shortened = [&](PathGeometric candidate)
   {
     shortcutter.shorten(candidate, ptc);
-    if (candidate.length() >= length)
+    const bool has_fewer_states =
+        candidate.getStateCount() < path.getStateCount() && candidate.length() <= (1.0 + kRounding) * length;
+    if (candidate.length() >= length && !has_fewer_states)
       return;
     path = candidate;
     length = path.length();

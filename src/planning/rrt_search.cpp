@@ -6,8 +6,8 @@
 #include <limits>
 #include <utility>
 
-// The trees grow by motions that are checked coarsely. The search proves only the motions of a path that it has found. If
-// a motion of the path fails, it is removed from its tree, and the search goes on. This delay of expensive checks is
+// The trees grow by motions that are checked coarsely. The search proves only the motions of a path that it has found.
+// If a motion of the path fails, it is removed from its tree, and the search goes on. This delay of expensive checks is
 // the idea of G. Sanchez, J.-C. Latombe: A single-query bi-directional probabilistic roadmap planner with lazy
 // collision checking. ISRR 2001. The trees: see bidirectional_tree.h.
 namespace gpu_planning_scene::core

@@ -145,12 +145,14 @@ class MatrixBuilder
 {
  public:
   MatrixBuilder(const RobotModel& robot, bool drop_checked)
-    : robot_(robot),
-      old_(AllowedCollisionMatrix::fromRobot(robot)),
-      // An SRDF without disabled pairs has only groups and states. Nobody has decided which pairs to check.
-      has_old_(!robot.srdfCollisions().disabled.empty() || !robot.srdfCollisions().disabled_by_default.empty()),
-      drop_checked_(drop_checked)
+    : robot_(robot), old_(AllowedCollisionMatrix::fromRobot(robot)), drop_checked_(drop_checked)
   {
+    const SrdfCollisions& srdf = robot.srdfCollisions();
+    for (const LinkPair& pair : srdf.unproven)
+      old_.setEntry(robot.links()[static_cast<std::size_t>(pair.first)].name,
+                    robot.links()[static_cast<std::size_t>(pair.second)].name, true);
+    // An SRDF without disabled pairs has only groups and states. Nobody has decided which pairs to check.
+    has_old_ = !srdf.disabled.empty() || !srdf.unproven.empty() || !srdf.disabled_by_default.empty();
   }
 
   void disable(const DisabledPair& pair)
@@ -182,7 +184,7 @@ class MatrixBuilder
 
   const RobotModel& robot_;
   AllowedCollisionMatrix old_;
-  bool has_old_;
+  bool has_old_ = false;
   bool drop_checked_;
   GeneratedMatrix matrix_;
 };

@@ -114,8 +114,9 @@ TEST(PositionLimits, ThatAreWiderThanThoseOfProofsMakeTheirPairsChecked)
   ASSERT_EQ(1u, warnings.size());
   EXPECT_EQ(0u,
             warnings[0].find("my.srdf: 1 pairs of links that are disabled with the reason Never are checked, because "
-                             "limits are wider than in the URDF: slide (-1 to 9). "))
+                             "limits are wider than those for which"))
       << warnings[0];
+  EXPECT_NE(std::string::npos, warnings[0].find(": slide (-1 to 9). ")) << warnings[0];
   EXPECT_TRUE(warningsOf(1.0, "Never", "").empty()) << "narrower";
   EXPECT_EQ(1u, disabled);
   EXPECT_TRUE(warningsOf(9.0, "Adjacent", "").empty()) << "not a proof";
@@ -123,6 +124,10 @@ TEST(PositionLimits, ThatAreWiderThanThoseOfProofsMakeTheirPairsChecked)
   EXPECT_TRUE(warningsOf(9.0, "Never", "<!-- limits from my.yaml: slide (-1 to 9) -->").empty()) << "proven for them";
   EXPECT_EQ(1u, disabled);
   EXPECT_EQ(1u, warningsOf(10.0, "Never", "<!-- limits from my.yaml: slide (-1 to 9) -->").size()) << "wider still";
+  const std::string narrow = "<!-- limits from my.yaml: a (0 to 1), slide (-0.25 to 0.25) -->";
+  EXPECT_EQ(1u, warningsOf(1.0, "Never", narrow).size()) << "within the URDF's, but wider than those of the proof";
+  EXPECT_EQ(0u, disabled);
+  EXPECT_TRUE(warningsOf(1.0, "Never", "<!-- limits from my.yaml: wide_slide (-0.25 to 0.25) -->").empty());
 }
 
 TEST(PositionLimits, ReplaceTheLimitsOfTheUrdfByNarrowerAndByWiderOnes)

@@ -223,7 +223,8 @@ TEST(PlanMotion, OptimizesForAsLongAsAskedUnlessThePathIsStraight)
   for (const double seconds : {-1.0, 2e9, std::nan("")})
   {
     wanted.optimize_seconds = seconds;
-    EXPECT_NE(std::string::npos, errorOf([&] { plan<BatchRrtConnect>(walls, wanted); }).find("the time to optimize is"));
+    EXPECT_NE(std::string::npos,
+              errorOf([&] { plan<BatchRrtConnect>(walls, wanted); }).find("the time to optimize is"));
   }
 }
 

@@ -31,6 +31,17 @@ class LaunchFile(unittest.TestCase):
     def test_clears_the_parameters_of_an_earlier_launch(self):
         self.assertEqual(self.load("name:=checker").clear_params, ["/checker/"])
 
+    def test_clears_the_limits_of_an_earlier_launch_if_it_loads_the_robot(self):
+        limits = "/robot_description_planning/"
+        self.assertIn(limits, self.load("urdf_command:=echo <robot/>").clear_params)
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml", encoding="utf-8") as file:
+            file.write("joint_limits: {slide: {max_position: 1.0}}")
+            file.flush()
+            for arguments, is_cleared in ((["urdf_command:=echo <robot/>"], True), ([], False)):
+                config = self.load("planning:=" + file.name, *arguments)
+                self.assertEqual(is_cleared, limits in config.clear_params)
+                self.assertEqual(1.0, config.params[limits + "joint_limits/slide/max_position"].value)
+
     def test_runs_a_command_for_the_urdf_and_the_srdf(self):
         config = self.load("urdf_command:=echo <robot/>", "srdf_command:=echo <robot><group/></robot>")
         self.assertEqual(config.params["/robot_description"].value, "<robot/>\n")

@@ -273,6 +273,24 @@ TEST_F(GenerateAcm, APairThatTheSrdfChecksStaysCheckedAndIsListed)
   EXPECT_TRUE(printed(dropped, "  block - spare: Never, proven by their reach\n")) << dropped.err;
 }
 
+TEST_F(GenerateAcm, PairsThatAreOnlyUnprovenForWiderLimitsAreProvenAnew)
+{
+  const std::string old = folder.write("old.srdf", R"(<robot name="line--up">
+  <disable_collisions link1="block" link2="mount" reason="Adjacent"/>
+  <disable_collisions link1="mount" link2="cover" reason="Never"/></robot>)");
+  const std::string planning =
+      folder.write("limits.yaml", "joint_limits: {slide: {min_position: -1, max_position: 9}}");
+  const ProgramOutput output = generate({"--samples", "1000", "--srdf", old, "--planning", planning});
+  ASSERT_EQ(0, output.exit_code) << output.err;
+  EXPECT_NE(std::string::npos, output.err.find("1 pairs of links that are disabled with the reason Never are checked"))
+      << output.err;
+  RobotModelOptions limits;
+  limits.position_limits = {{"slide", -1.0, 9.0}};
+  const auto reasons = reasonsOf(*RobotModel::fromFiles(urdf, out, limits));
+  EXPECT_EQ("Never", reasons.at("mount-cover"));
+  EXPECT_EQ(std::string::npos, output.err.find("  mount - cover")) << output.err;
+}
+
 TEST_F(GenerateAcm, AnExistingOutputIsAnOldSrdfToo)
 {
   const std::string old = R"(<robot name="line--up">

@@ -189,7 +189,9 @@ std::vector<std::string> warningsOfScene(const PlanningScene& scene, const Scene
                                        [links](const BodyPair& pair) { return pair[0] < links && pair[1] < links; });
     const SrdfCollisions& srdf = scene.robot->srdfCollisions();
     // If OLD disables pairs at all, generate_acm keeps the pairs that it checks.
-    const std::string old = !srdf.has_srdf ? "" : srdf.disabled.empty() ? "--srdf OLD " : "--srdf OLD --drop-checked ";
+    const std::string old = !srdf.has_srdf                                   ? ""
+                            : srdf.disabled.empty() && srdf.unproven.empty() ? "--srdf OLD "
+                                                                             : "--srdf OLD --drop-checked ";
     lines.push_back(counted(other.size(), "pair") + found + pairList(scene, other) +
                     (are_links ? "; these are links of the robot: generate_acm " + old +
                                      "--out NEW makes an SRDF that allows the pairs that always collide"

@@ -10,8 +10,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// Above the rounding of waypoints that a client computes, and far below what a base can be steered to.
-constexpr double kAside = 1e-6;  // metres and radians
+// People write headings with three decimals. A base cannot be steered more exactly than this.
+constexpr double kAside = 1e-3;  // metres and radians
 
 /// What the motion demands of the base that it cannot do; empty: nothing. `from`, `to`: x, y and theta.
 std::string sidewaysPart(const double* from, const double* to)

@@ -8,6 +8,7 @@
 #include "model/description/description_file.h"
 #include "model/description/groups.h"
 #include "model/description/named_states.h"
+#include "model/description/proof_limits.h"
 #include "model/description/robot_parts.h"
 #include "model/description/srdf_reader.h"
 #include "model/description/tree_builder.h"
@@ -145,27 +146,25 @@ class RobotModelBuilder
                           (joint < 0 ? "the joint is not in the robot" : "the joint is not planar"));
   }
 
-  /// A pair with the reason Never was found free within the limits of the URDF, or within those that a comment of the
-  /// SRDF names (srdf_writer.cpp). If limits are wider, these pairs are checked.
+  /// A pair with the reason Never was found free within some limits. If the limits are wider, these pairs are checked.
   void checkUnprovenPairs(const std::vector<int>& widened, const std::string& srdf)
   {
-    std::vector<std::string> unproven;
-    for (const int number : widened)
-      if (const std::string limits = describeVariable(model_->variables_[static_cast<std::size_t>(number)]);
-          srdf.find(limits) == std::string::npos)
-        unproven.push_back(limits);
-    if (unproven.empty())
+    const std::vector<std::string> beyond = limitsBeyondProofs(model_->variables_, widened, srdf);
+    if (beyond.empty())
       return;
-    std::vector<LinkPair>& disabled = model_->srdf_collisions_.disabled;
+    SrdfCollisions& collisions = model_->srdf_collisions_;
+    std::vector<LinkPair>& disabled = collisions.disabled;
     const auto first = std::stable_partition(disabled.begin(), disabled.end(),
                                              [](const LinkPair& pair) { return pair.reason != "Never"; });
     if (first == disabled.end())
       return;
-    warnings_.push_back(options_.srdf_name + ": " + std::to_string(disabled.end() - first) +
-                        " pairs of links that are disabled with the reason Never are checked, because limits are " +
-                        "wider than in the URDF: " + nameList(unproven) +
-                        ". To save their checks, run generate_acm with --planning and these limits");
+    collisions.unproven.assign(first, disabled.end());
     disabled.erase(first, disabled.end());
+    warnings_.push_back(options_.srdf_name + ": " + std::to_string(collisions.unproven.size()) +
+                        " pairs of links that are disabled with the reason Never are checked, because limits are " +
+                        "wider than those for which the pairs were found free (those that the SRDF's comment names, " +
+                        "or else those of the URDF): " + nameList(beyond) +
+                        ". To save their checks, run generate_acm --srdf OLD --out NEW with these limits (--planning)");
   }
 
   int knownLink(const std::string& link, const std::string& where)

@@ -66,6 +66,8 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
           response.body_1.push_back(collides ? answer.scene->bodyName(verdict.colliding[0]) : "");
           response.body_2.push_back(collides ? answer.scene->bodyName(verdict.colliding[1]) : "");
         }
+        if (response.message.empty() && motion_rule == MotionRule::Bound)
+          addWarning(unproven(answer.motions, "motion"), response.message);
         addWarning(givenUp(answer.motions, options_.max_motion_checks, "motion"), response.message);
         addWarnings(scene.warnings, response.message);
         addWarning(assumed_base, response.message);

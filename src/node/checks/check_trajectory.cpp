@@ -145,6 +145,8 @@ CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::
                                                            robot, trajectory.columns, trajectory.rows,
                                                            [](std::size_t i) { return rowName(i + 1); });
         addWarning(sidewaysMotion(robot, path.data(), path.data() + width, parts, "part"), response.message);
+        if (response.message.empty() && rule == MotionRule::Bound)
+          addWarning(unproven(answer.motions, "part"), response.message);
         addWarning(givenUp(answer.motions, options_.max_motion_checks, "part"), response.message);
         addWarning(longTurn(robot, path), response.message);
         addWarnings(scene.warnings, response.message);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 #include "collision/bounds/reach.h"
@@ -64,7 +65,10 @@ std::string beyondLimits(const RobotModel& robot, const double* states, std::siz
   for (std::size_t row = 0; row < count; ++row)
     if (const ValuesOutsideLimits outside = valuesOutside(ranges, robot, states + row * width); outside.count() != 0)
       return name_of(row) + ": " + outside.text() + "; the motion rule \"bound\" proves no motion there";
-  return "";
+  std::vector<int> columns(width);
+  std::iota(columns.begin(), columns.end(), 0);
+  const auto turned = findTurnedBase(robot, columns, states, count);
+  return turned ? name_of(turned->row) + ": " + turned->text : "";
 }
 
 std::string outsideLimits(const RobotModel& robot, const std::vector<int>& columns, const std::vector<double>& rows,
@@ -72,6 +76,19 @@ std::string outsideLimits(const RobotModel& robot, const std::vector<int>& colum
 {
   const auto outside = findValueOutsideLimits(robot, columns, rows.data(), rows.size() / columns.size());
   return outside ? name_of(outside->row) + ": " + outside->text : "";
+}
+
+std::string unproven(const std::vector<MotionVerdict>& motions, const std::string& what)
+{
+  const auto is_unproven = [](const MotionVerdict& motion)
+  { return !motion.valid && !motion.given_up && motion.colliding == kNoPair; };
+  const auto first = std::find_if(motions.begin(), motions.end(), is_unproven);
+  if (first == motions.end())
+    return "";
+  return std::to_string(std::count_if(first, motions.end(), is_unproven)) + " of " + std::to_string(motions.size()) +
+         " " + what + "s are neither proven free nor found in collision; the first is " + what + " " +
+         std::to_string(first - motions.begin()) + ". Two bodies pass each other too closely for its length, as a " +
+         "wheel and its floor do: allow this pair, move the object by some millimetres, or give shorter " + what + "s";
 }
 
 std::string givenUp(const std::vector<MotionVerdict>& motions, std::size_t max_checks, const std::string& what)

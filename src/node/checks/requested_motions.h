@@ -26,8 +26,9 @@ std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const RequestedMot
                                                               const double* starts, const double* ends,
                                                               std::size_t count, const CheckServicesOptions& limits);
 
-/// A warning if a joint is beyond its limits in one of `count` full states; otherwise empty. The rule "bound" proves no
-/// motion there, even if the group does not move the joint. `name_of`: what the warning calls a row of `states`.
+/// A warning if a joint is beyond its limits in one of `count` full states, or if a base turns by more than one turn;
+/// otherwise empty. The rule "bound" proves no motion beyond limits, even if the group does not move the joint.
+/// `name_of`: what the warning calls a row of `states`.
 std::string beyondLimits(const RobotModel& robot, const double* states, std::size_t count,
                          const std::function<std::string(std::size_t row)>& name_of);
 
@@ -35,6 +36,10 @@ std::string beyondLimits(const RobotModel& robot, const double* states, std::siz
 /// which checks such motions. `rows`: rows of values for the variables `columns`.
 std::string outsideLimits(const RobotModel& robot, const std::vector<int>& columns, const std::vector<double>& rows,
                           const std::function<std::string(std::size_t row)>& name_of);
+
+/// A warning if motions are neither proven nor found in collision; otherwise empty. For the rule "bound", and motions
+/// whose ends are within their limits. `what`: see RequestedMotions.
+std::string unproven(const std::vector<MotionVerdict>& motions, const std::string& what);
 
 /// A warning if the limit of checks left motions undecided; otherwise empty. `what`: see RequestedMotions.
 std::string givenUp(const std::vector<MotionVerdict>& motions, std::size_t max_checks, const std::string& what);

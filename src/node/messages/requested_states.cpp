@@ -14,7 +14,8 @@ std::vector<int> requestedColumns(const RobotModel& robot, const RequestField<st
                                   const std::function<void(std::size_t)>& require_count)
 {
   if (names.values.empty())
-    throw Error(std::string(names.name) + " is empty; name at least one variable");
+    throw Error(std::string(names.name) +
+                " is empty; name at least one variable, or give a state of the SRDF by its name");
   std::vector<int> columns = variableIndices(robot, names.values);
   const std::size_t width = columns.size();
   const std::vector<double>& values = rows.values;

@@ -174,8 +174,8 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
                 std::to_string(options.max_seconds) + " (limits/planning_time)");
   query.simplify = request.simplify;
   query.optimize_seconds = request.optimize;
-  if (query.optimize_seconds > options.max_seconds)
-    throw Error("optimize is " + std::to_string(query.optimize_seconds) + " s; the limit is " +
+  if (!(query.optimize_seconds >= 0.0 && query.optimize_seconds <= options.max_seconds))
+    throw Error("optimize is " + std::to_string(query.optimize_seconds) + " s; it must be from 0 to " +
                 std::to_string(options.max_seconds) + " (limits/planning_time)");
   query.motions = options.motions;
   if (!request.motion_rule.empty())

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <random>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
+#include "model/joint_limits.h"
 #include "node/endpoints/respond.h"
 #include "node/messages/requested_changes.h"
 #include "service/busy.h"
@@ -172,6 +174,16 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
   PlanningQuery query = queryFrom(request, now, config, configs_.ofGroup(request.group), options_);
   if (std::string base = now.assumedBase(variableIndices(*now.scene->robot, request.start_names)); !base.empty())
     warnings.push_back(std::move(base));
+  std::vector<int> columns(query.start.size());
+  std::iota(columns.begin(), columns.end(), 0);
+  std::vector<std::vector<double>> rows = query.goals;
+  rows.push_back(query.start);
+  for (const std::vector<double>& row : rows)
+    if (const auto turned = findTurnedBase(*now.scene->robot, columns, row.data(), 1))
+    {
+      warnings.push_back(turned->text);
+      break;
+    }
   return {now.scene, std::move(query), factory, config.type, std::move(warnings)};
 }
 

@@ -135,6 +135,43 @@ TEST(MotionsOfADifferentialDrive, AreRefusedIfTheyGoSideways)
   EXPECT_NE(std::string::npos, followed.message.find("part 1: joint 'drive' moves 0.1 m sideways")) << followed.message;
 }
 
+TEST(MotionsBesideAFloor, ThatAreNotProvenSaySo)
+{
+  RobotModelOptions options;
+  options.position_limits = {{"drive/x", -100.0, 100.0}};
+  const auto robot = RobotModel::fromXml(
+      "<robot name='r'>" + boxLink("body") + "</robot>",
+      "<robot name='r'><virtual_joint name='drive' type='planar' parent_frame='world' child_link='body'/></robot>",
+      options);
+  PlanningScene scene(robot);
+  WorldObject floor;
+  floor.id = "floor";
+  floor.shapes = {{HalfSpace{Eigen::Vector3d::UnitZ(), -0.50001}}};
+  scene.objects = {floor};
+  SceneStore store(std::move(scene), {}, {});
+  CheckServer server(store,
+                     [](std::shared_ptr<const PlanningScene> its_scene)
+                     { return std::make_shared<CpuChecker>(std::move(its_scene)); },
+                     {});
+  MemoryGuard memory(0);
+  CheckServices services(store, server, memory, {1000, 1000000, 10}, nullptr);
+  CheckMotions::Request motions;
+  motions.joint_names = {"drive/x", "drive/y", "drive/theta"};
+  motions.starts = {0.0, 0.0, 0.0};
+  motions.ends = {20.0, 0.0, 0.0};
+  motions.resolution = motions.translation_resolution = 0.05;
+  CheckMotions::Response response = services.checkMotions(motions);
+  ASSERT_TRUE(response.success) << response.message;
+  ASSERT_EQ(std::vector<std::uint8_t>{0}, response.valid) << "a centimetre of the way is proven by each check";
+  EXPECT_EQ(0u, response.message.find("1 of 1 motions are neither proven free nor found in collision; the first is "
+                                      "motion 0. Two bodies pass each other too closely for its length"))
+      << response.message;
+  motions.ends = {0.5, 0.0, 90.0};
+  motions.motion_rule = "samples";
+  EXPECT_EQ("motion 0: joint 'drive/theta' is 90 rad, more than one turn; 90 degrees are 1.5708 rad",
+            services.checkMotions(motions).message);
+}
+
 /// A request is queued while a change sets the scene and the robot's state together.
 class WaitingService : public Service
 {
@@ -588,7 +625,8 @@ TEST_F(Service, ANameAndValuesOfOneEndOfAMotionAreRefused)
   EXPECT_EQ("named_end is 'left', but ends is not empty; give one of the two", services.checkMotions(asked).message);
   asked = CheckMotions::Request();
   asked.named_start = "left";
-  EXPECT_EQ("joint_names is empty; name at least one variable", services.checkMotions(asked).message);
+  EXPECT_EQ("joint_names is empty; name at least one variable, or give a state of the SRDF by its name",
+            services.checkMotions(asked).message);
 }
 
 TEST_F(Service, MotionsThatNeedTooManyChecksAreNotFreeAndMarked)
