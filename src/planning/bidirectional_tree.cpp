@@ -33,7 +33,7 @@ constexpr std::size_t kPiecesBetweenRoots = 32;
 
 // Draws of a random state within the largest length. If that is little more than the distance of the roots, few states
 // are within it, and the last draw is taken.
-constexpr std::size_t kDraws = 64;
+constexpr std::size_t kDrawsWithinLength = 64;
 
 BidirectionalTree::Side otherThan(BidirectionalTree::Side side)
 {
@@ -138,7 +138,7 @@ BidirectionalTree::Attempt BidirectionalTree::randomBranch(Side side, const Limi
   ompl::base::State* state = scratch();
   sampler_->sampleUniform(state);
   const bool is_limited = std::isfinite(limits.largest_length);
-  for (std::size_t i = 1; is_limited && i < kDraws && lengthThrough(state) >= limits.largest_length; ++i)
+  for (std::size_t i = 1; is_limited && i < kDrawsWithinLength && lengthThrough(state) >= limits.largest_length; ++i)
     sampler_->sampleUniform(state);
   const Vertex& from = trees_[side].nearest(state);
   const double distance = information_->distance(from.state, state);
