@@ -85,13 +85,15 @@ Lengths plan(const PlanningProblem& problem, const std::shared_ptr<StateChecker>
   Lengths lengths;
   lengths.fill(kInfinity);
   std::size_t next = 0;
+  double known = kInfinity;  // at the last look: a path that was found since then may have been found after the time
   const Stopwatch watch;
   const ob::PlannerTerminationCondition ptc(
       [&]
       {
         const double now = watch.seconds();
         for (; next < kTimes.size() && now >= kTimes[next]; ++next)
-          lengths[next] = bestLength(*planner);
+          lengths[next] = known;
+        known = bestLength(*planner);
         return now >= settings.seconds;
       });
   planner->solve(ptc);

@@ -41,9 +41,10 @@ double shortestAngularDistance(double from, double to);
 /// jumps by whole turns as `fraction` reaches 1. The robot itself does not jump.
 void interpolate(const RobotModel& robot, const double* from, const double* to, double fraction, double* state);
 
-/// The first of `count` straight motions in which a joint with Joint::diff_drive moves sideways by more than 1 mm, or
-/// turns by more than 1 mrad while it drives, as a message; empty: there is none. MotionChecker and the trajectory
-/// checks do not look at it. `starts`, `ends`: as for MotionChecker::check. `what`: what the message calls a motion.
+/// The first of `count` straight motions in which a joint with Joint::diff_drive moves sideways by more than 1 mm (on
+/// a long way, 1 mm for each metre), or turns by more than 1 mrad while it drives, as a message; empty: there is none.
+/// MotionChecker and the trajectory checks do not look at it. `starts`, `ends`: as for MotionChecker::check. `what`:
+/// what the message calls a motion.
 std::string sidewaysMotion(const RobotModel& robot, const double* starts, const double* ends, std::size_t count,
                            const std::string& what);
 }  // namespace gpu_planning_scene::core

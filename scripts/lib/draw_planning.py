@@ -59,13 +59,15 @@ def draw_lengths(folder):
     for row in rows_of(folder / "path_lengths.csv"):
         length = float(row["length"]) if row["length"] else math.inf
         lengths[row["planner"], float(row["seconds"])][row["problem"]] = length
-    problems = {problem for some in lengths.values() for problem in some}
-    least = {problem: min(some.get(problem, math.inf) for some in lengths.values()) for problem in problems}
+    least = collections.defaultdict(lambda: math.inf)
+    for some in lengths.values():
+        for problem, length in some.items():
+            least[problem] = min(least[problem], length)
     figure, axes = pyplot.subplots(figsize=(5, 3.6))
     for planner, colour in PLANNERS.items():
         times = sorted(seconds for name, seconds in lengths if name == planner)
-        medians = [statistics.median(length / least[problem] for problem, length in lengths[planner, seconds].items())
-                   for seconds in times]
+        medians = [statistics.median(length / least[problem] for problem, length in lengths[planner, seconds].items()
+                                     if least[problem] < math.inf) for seconds in times]
         if times:
             axes.plot(times, medians, marker=".", color=colour, label=planner)
     axes.set_xscale("log")

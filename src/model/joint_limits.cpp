@@ -156,12 +156,7 @@ std::optional<ValueOutsideLimits> findValueOutsideLimits(const RobotModel& robot
         outside.add(column, value);
       }
   if (outside.count() == 0)
-  {
-    const double* const first = rows - count * columns.size();
-    if (auto far = findFarTranslation(robot, columns, first, count))
-      return far;
-    return findTurnedBase(robot, columns, first, count);
-  }
+    return findFarTranslation(robot, columns, rows - count * columns.size(), count);
   return ValueOutsideLimits{first_row, outside.text()};
 }
 }  // namespace gpu_planning_scene::core

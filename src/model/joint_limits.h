@@ -42,7 +42,7 @@ class ValuesOutsideLimits
 };
 
 /// The first value of a table that is outside its joint limits; or, if all are within them, the first translation of a
-/// planar or floating joint beyond kExactRange, or findTurnedBase.
+/// planar or floating joint beyond kExactRange.
 struct ValueOutsideLimits
 {
   std::size_t row;
@@ -50,13 +50,14 @@ struct ValueOutsideLimits
                      ///< the angle
 };
 
-/// The first angle of a planar joint that is more than one turn and so may be in degrees. `rows`: `count` rows of
+/// The first angle of a planar joint that is more than one turn and so may be in degrees. For values that a person
+/// gives: the yaw of odometry may be any number of turns. `rows`: `count` rows of
 /// values for the variables `columns`.
 std::optional<ValueOutsideLimits> findTurnedBase(const RobotModel& robot, const std::vector<int>& columns,
                                                  const double* rows, std::size_t count);
 
 /// `rows`: `count` rows of values for the variables `columns`. No value: nothing is outside the limits by more than
-/// 1e-6 (radians, metres), or beyond kExactRange, and findTurnedBase finds nothing.
+/// 1e-6 (radians, metres), or beyond kExactRange.
 std::optional<ValueOutsideLimits> findValueOutsideLimits(const RobotModel& robot, const std::vector<int>& columns,
                                                          const double* rows, std::size_t count);
 }  // namespace gpu_planning_scene::core

@@ -140,13 +140,15 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
   }
   const double spent = ompl::time::seconds(ompl::time::now() - start);
   const double more = std::clamp(kProofOfTime * spent, kLeastProof, kMaxProof);
-  if (!path)
+  if (!path && !is_exact_only_)
     path = search_->provenPath(validator, ob::timedPlannerTerminationCondition(more));
   if (path)
   {
     pdef_->addSolutionPath(path, false, 0.0, getName());
     return ob::PlannerStatus::EXACT_SOLUTION;
   }
+  if (is_exact_only_)
+    return ob::PlannerStatus::TIMEOUT;
   path = search_->approximatePath(validator, ob::timedPlannerTerminationCondition(more));
   if (!path)
     return ob::PlannerStatus::TIMEOUT;

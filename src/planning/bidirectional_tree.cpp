@@ -33,7 +33,7 @@ constexpr std::size_t kPiecesBetweenRoots = 32;
 
 // Draws of a random state within the largest length. If that is little more than the distance of the roots, few states
 // are within it, and the last draw is taken.
-constexpr std::size_t kDrawsWithinLength = 64;
+constexpr std::size_t kDrawsWithinLength = 128;
 
 BidirectionalTree::Side otherThan(BidirectionalTree::Side side)
 {

@@ -9,6 +9,9 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+// Some 200 bytes each.
+constexpr std::size_t kMostRemembered = 100'000;
+
 MotionCheckerOptions coarser(MotionCheckerOptions options)
 {
   options.rule = MotionRule::Samples;
@@ -113,10 +116,10 @@ std::vector<std::uint8_t> MotionValidator::validateMotions(const std::vector<Mot
   const std::vector<MotionVerdict> verdicts = check(motions_, unknown_motions, MotionQuery::Valid, ptc);
   const std::lock_guard<std::mutex> lock(mutex_);
   for (std::size_t i = 0; i < unknown.size(); ++i)
-    if (verdicts[i].valid)
-      valid_motions_.insert(key_of(unknown_motions[i]));
-    else
+    if (!verdicts[i].valid)
       valid[unknown[i]] = 0;
+    else if (valid_motions_.size() < kMostRemembered)
+      valid_motions_.insert(key_of(unknown_motions[i]));
   return valid;
 }
 

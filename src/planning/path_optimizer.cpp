@@ -39,6 +39,7 @@ class Search
     planner_.setProblemDefinition(definition_);
     planner_.setup();
     planner_.setMaxRounds(kRoundsOfSearch);
+    planner_.setExactOnly(true);
   }
 
   /// Goes on searching. Returns a path or null.

@@ -344,5 +344,19 @@ TEST(BatchRrtConnect, NeedsMotionsInBulk)
   planner.setProblemDefinition(robot.problem(kLeft, {kRight}));
   EXPECT_THROW(planner.setup(), ompl::Exception);
 }
+/// The trees grow by motions that are checked at four times the steps, so many of them pass through this wall.
+TEST(BatchRrtConnectBySamples, ChecksTheMotionsOfItsPathAtTheStepsOfTheRule)
+{
+  MotionCheckerOptions options;
+  options.rule = MotionRule::Samples;
+  options.steps.prismatic = 0.1;
+  for (int i = 0; i < 20; ++i)
+  {
+    Planning planning({{-0.025, -3.0, 0.025, 1.5}}, kLeft, {kRight}, options);
+    planning.planner->setRange(0.4);
+    ASSERT_TRUE(planning.solve() == ob::PlannerStatus::EXACT_SOLUTION);
+    EXPECT_TRUE(planning.robot.isValid(planning.path())) << i;
+  }
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core

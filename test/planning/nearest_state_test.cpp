@@ -85,6 +85,31 @@ TEST(NearestState, HasTheLeastDistanceOfTheSpace)
   }
 }
 
+TEST(NearestState, OfAVectorSpaceIsTheFirstOfTheNearest)
+{
+  const auto space = std::make_shared<ob::RealVectorStateSpace>(7);
+  space->setBounds(-3.0, 3.0);
+  space->setup();
+  NearestState nearest(space);
+  const ob::StateSamplerPtr sampler = space->allocStateSampler();
+  std::vector<ob::ScopedState<>> states;
+  ob::ScopedState<> query(space);
+  for (int count = 1; count <= 100; ++count)
+  {
+    states.emplace_back(space);
+    sampler->sampleUniform(states.back().get());
+    nearest.add(states.back().get());
+    sampler->sampleUniform(query.get());
+    std::size_t expected = 0;
+    for (std::size_t i = 1; i < states.size(); ++i)
+      if (space->distance(states[i].get(), query.get()) < space->distance(states[expected].get(), query.get()))
+        expected = i;
+    EXPECT_EQ(nearest.nearest(query.get()), expected) << count;
+  }
+  nearest.add(states[40].get());
+  EXPECT_EQ(nearest.nearest(states[40].get()), 40U) << "not the equal one that came later";
+}
+
 TEST(NearestState, RefusesASpaceWhoseDistancesItDoesNotKnow)
 {
   EXPECT_THROW(NearestState(std::make_shared<ob::DiscreteStateSpace>(0, 5)), ompl::Exception);

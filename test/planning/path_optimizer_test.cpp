@@ -80,7 +80,7 @@ TEST_P(Optimizer, FindsTheShorterWayRoundAWall)
   EXPECT_GE(path.length(), kShortest * (GetParam() == MotionRule::Bound ? 1.0 : 0.99));
   EXPECT_EQ(until.lengths().back(), path.length());
   for (std::size_t i = 1; i < until.lengths().size(); ++i)
-    EXPECT_LT(until.lengths()[i], until.lengths()[i - 1]);
+    EXPECT_LE(until.lengths()[i], (1.0 + 1e-9) * until.lengths()[i - 1]);
   EXPECT_TRUE(robot.isValid(path));
   EXPECT_EQ(PointRobot::positionOf(path.getStates().front()), kBegin);
   EXPECT_EQ(PointRobot::positionOf(path.getStates().back()), kEnd);
@@ -137,7 +137,6 @@ TEST(AnytimeBatch, ShortensItsFirstPathUntilTheTimeIsUp)
   const auto best_cost = planner->getPlannerProgressProperties().at("best cost REAL");
   EXPECT_EQ("inf", best_cost());
   EXPECT_TRUE(planner->solve(until.condition()) == ob::PlannerStatus::EXACT_SOLUTION);
-  ASSERT_EQ(1U, problem->getSolutionCount());
   auto& path = *problem->getSolutionPath()->as<PathGeometric>();
   EXPECT_TRUE(robot.isValid(path));
   EXPECT_LE(path.length(), 1.01 * kShortest);
@@ -148,6 +147,22 @@ TEST(AnytimeBatch, ShortensItsFirstPathUntilTheTimeIsUp)
   EXPECT_LE(problem->getSolutionPath()->length(), length);
   planner->clear();
   EXPECT_EQ("inf", best_cost());
+}
+
+TEST(AnytimeBatch, ForgetsThePathOfAnotherProblem)
+{
+  const PointRobot robot(kWallWithTwoEnds);
+  AnytimeBatch planner(robot.information());
+  for (const double y : {0.0, -1.0})
+  {
+    const ob::ProblemDefinitionPtr problem = robot.problem({-1.0, y}, {{1.0, y}});
+    planner.setProblemDefinition(problem);
+    planner.setup();
+    ASSERT_TRUE(planner.Planner::solve(0.1) == ob::PlannerStatus::EXACT_SOLUTION);
+    auto& path = *problem->getSolutionPath()->as<PathGeometric>();
+    EXPECT_EQ(PointRobot::positionOf(path.getStates().front()), PointRobot::Position(-1.0, y));
+    EXPECT_EQ(PointRobot::positionOf(path.getStates().back()), PointRobot::Position(1.0, y));
+  }
 }
 
 TEST(AnytimeBatch, HasTheStatusOfItsSearchWithoutAPath)

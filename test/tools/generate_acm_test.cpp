@@ -114,13 +114,12 @@ TEST_F(GenerateAcm, TheCommentsSayWhatProvesThatAPairNeverCollides)
 TEST_F(GenerateAcm, TheCommentsNameTheLimitsForWhichTheProofsHold)
 {
   ASSERT_EQ(0, generate({"--samples", "100"}).exit_code);
-  EXPECT_NE(std::string::npos, contentOf(out).find("The limits are those of <limit>. -->")) << contentOf(out);
+  EXPECT_NE(std::string::npos, contentOf(out).find("The limits are: slide (-5 to 5). -->")) << contentOf(out);
   const std::string planning =
       folder.write("limits.yaml", "joint_limits: {slide: {min_position: -1, max_position: 9}}");
   ASSERT_EQ(0, generate({"--samples", "100", "--planning", planning}).exit_code);
-  EXPECT_NE(std::string::npos,
-            contentOf(out).find("The limits are those of <limit>, with these exceptions:\n    limits from " + planning +
-                                ": slide (-1 to 9) -->"))
+  EXPECT_NE(std::string::npos, contentOf(out).find("The limits are: slide (-1 to 9). \n    limits from " + planning +
+                                                   ": slide (-1 to 9). -->"))
       << contentOf(out);
 }
 

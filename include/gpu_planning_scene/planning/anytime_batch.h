@@ -1,21 +1,25 @@
 #pragma once
 
+#include <atomic>
 #include <memory>
 
 #include <ompl/base/Planner.h>
+#include <ompl/geometric/PathGeometric.h>
 
 namespace gpu_planning_scene::core
 {
 /// Finds a path with BatchRrtConnect, and then shorter ones until the time is up, with PathOptimizer. It takes all of
 /// its time, unless the path is the straight motion to the only goal. It needs a MotionValidator and a goal of states.
-/// OMPL's intermediate-solution callback gets each path, and the progress property "best cost REAL" its length. Not
-/// thread-safe.
+/// OMPL's intermediate-solution callback gets each path, and the progress property "best cost REAL" its length; the
+/// property may be read while solve() runs. Otherwise not thread-safe.
 class AnytimeBatch : public ompl::base::Planner
 {
  public:
   explicit AnytimeBatch(const ompl::base::SpaceInformationPtr& information);
   ~AnytimeBatch() override;
 
+  /// Forgets the path and the trees of another problem.
+  void setProblemDefinition(const ompl::base::ProblemDefinitionPtr& definition) override;
   /// Throws ompl::Exception if the space information has no gpu_planning_scene::core::MotionValidator.
   void setup() override;
   void clear() override;
@@ -24,7 +28,11 @@ class AnytimeBatch : public ompl::base::Planner
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
  private:
+  void take(const ompl::geometric::PathGeometric& path);
+
   ompl::base::PlannerPtr search_;
-  ompl::base::PathPtr best_;
+  ompl::base::ProblemDefinitionPtr searched_;  // the problem, with the solutions of the search alone; null: not begun
+  std::shared_ptr<ompl::geometric::PathGeometric> best_;
+  std::atomic<double> best_length_;
 };
 }  // namespace gpu_planning_scene::core

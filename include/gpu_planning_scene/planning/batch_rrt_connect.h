@@ -47,6 +47,10 @@ class BatchRrtConnect : public ompl::base::Planner
   void setMaxRounds(unsigned int rounds) { max_rounds_ = rounds; }
   unsigned int getMaxRounds() const { return max_rounds_; }
 
+  /// True: solve() returns a path to a goal or none, and takes no time after `ptc` has returned true or the rounds have
+  /// ended. By default, it may also return a path that ends near a goal.
+  void setExactOnly(bool is_exact_only) { is_exact_only_ = is_exact_only; }
+
   /// Random states are drawn among those through which a path from a start to a goal can be shorter than this; by
   /// default, among all.
   void setLargestLength(double length) { largest_length_ = length; }
@@ -60,6 +64,7 @@ class BatchRrtConnect : public ompl::base::Planner
   /// If no solution is proven, the planner takes the same time again to prove the path to the vertex closest to the
   /// goal.
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
+  /// The motions of the trees, which are checked coarsely unless a path has led along them.
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
  private:
@@ -72,6 +77,7 @@ class BatchRrtConnect : public ompl::base::Planner
   double range_ = 0.0;
   unsigned int branches_ = 64;
   unsigned int max_rounds_ = 0;
+  bool is_exact_only_ = false;
   double largest_length_ = std::numeric_limits<double>::infinity();
   std::unique_ptr<RrtSearch> search_;  // everything that clear() deletes
 };

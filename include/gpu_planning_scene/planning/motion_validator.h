@@ -51,9 +51,9 @@ class MotionValidator : public ompl::base::MotionValidator
                                              const Termination& ptc = never()) const;
   static constexpr double kCoarser = 4.0;
   MotionRule rule() const { return motions_.rule(); }
-  /// From now on, a motion that validateMotions or validatePath has found valid counts as valid again, without a check.
-  /// So the last check of a path costs nothing if its planner has proven the path. Call this only if the checker keeps
-  /// its scene.
+  /// From now on, a motion that validateMotions or validatePath has found valid counts as valid again, without a check
+  /// (100,000 of them at most). So the last check of a path costs nothing if its planner has proven the path. Call this
+  /// only if the checker keeps its scene.
   void rememberValidMotions() { remembers_ = true; }
   /// Checks all motions of the path in one batch. Returns true if all motions are valid. A path with one state is valid
   /// if the state is valid. An empty path is not valid.

@@ -9,9 +9,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// Shortens a path for as long as the time allows. Shortcuts bring a path to the shortest one of its kind: it passes
-/// the obstacles on the same sides. Further searches with BatchRrtConnect find paths of other kinds. They draw only
-/// states through which a path can be shorter than the best one. Not thread-safe.
+/// Shortens a path for as long as the time allows. Shortcuts bring a path near the shortest one of its kind, which
+/// passes the obstacles on the same sides. Further searches with BatchRrtConnect find paths of other kinds. They draw
+/// only states through which a path can be shorter than the best one. Not thread-safe.
 ///
 /// Restarts that are shortened: R. Luna, I. A. Sucan, M. Moll, L. E. Kavraki: Anytime solution optimization for
 /// sampling-based motion planning. ICRA 2013. The states that can improve a path: J. D. Gammell, S. S. Srinivasa, T. D.
@@ -19,7 +19,7 @@ namespace gpu_planning_scene::core
 class PathOptimizer
 {
  public:
-  /// Receives each path that is shorter than those before.
+  /// Receives each path that is shorter than those before, or as long with fewer states.
   using Found = std::function<void(const ompl::geometric::PathGeometric&)>;
 
   /// Throws ompl::Exception if the space information has no gpu_planning_scene::core::MotionValidator. `goal`: where

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -10,8 +11,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// People write headings with three decimals. A base cannot be steered more exactly than this.
-constexpr double kAside = 1e-3;  // metres and radians
+// People write headings with two or three decimals. A base cannot be steered more exactly than this.
+constexpr double kAside = 1e-3;  // metres, metres for each metre of the way, and radians
 
 /// What the motion demands of the base that it cannot do; empty: nothing. `from`, `to`: x, y and theta.
 std::string sidewaysPart(const double* from, const double* to)
@@ -19,7 +20,7 @@ std::string sidewaysPart(const double* from, const double* to)
   const Eigen::Vector2d way(to[0] - from[0], to[1] - from[1]);
   const Eigen::Vector2d heading(std::cos(from[2]), std::sin(from[2]));
   const double aside = std::abs(heading.x() * way.y() - heading.y() * way.x());
-  if (!(aside <= kAside))
+  if (!(aside <= kAside * std::max(1.0, way.norm())))
     return "moves " + numberText(aside) + " m sideways";
   const double turn = std::abs(shortestAngularDistance(from[2], to[2]));
   if (!(way.norm() <= kAside) && !(turn <= kAside))

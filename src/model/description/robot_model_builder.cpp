@@ -119,6 +119,9 @@ class RobotModelBuilder
     for (const SrdfJointProperty& property : srdf.joint_properties)
       if (property.property == "motion_model")
         setMotionModel(property);
+      else if (property.property != "angular_distance_weight" && property.property != "min_translational_distance")
+        warnings_.push_back(property.where + ": joint '" + property.joint + "' has the unknown property '" +
+                            property.property + "', which is not used; if its motion is meant, it is motion_model");
     SrdfCollisions& collisions = model_->srdf_collisions_;
     collisions.disabled = resolvePairs(srdf.disabled);
     collisions.enabled = resolvePairs(srdf.enabled);
@@ -149,7 +152,7 @@ class RobotModelBuilder
   /// A pair with the reason Never was found free within some limits. If the limits are wider, these pairs are checked.
   void checkUnprovenPairs(const std::vector<int>& widened, const std::string& srdf)
   {
-    const std::vector<std::string> beyond = limitsBeyondProofs(model_->variables_, widened, srdf);
+    const std::vector<std::string> beyond = limitsBeyondProofs(model_->joints_, model_->variables_, widened, srdf);
     if (beyond.empty())
       return;
     SrdfCollisions& collisions = model_->srdf_collisions_;

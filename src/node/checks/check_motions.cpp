@@ -5,6 +5,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "model/full_states.h"
+#include "model/joint_limits.h"
 #include "node/checks/check_services.h"
 #include "node/checks/requested_motions.h"
 #include "node/checks/requested_scene.h"
@@ -47,6 +48,11 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
           if (response.message.empty())
             response.message = motion_rule == MotionRule::Bound ? beyondLimits(robot, full.data(), count, name_of)
                                                                 : outsideLimits(robot, job.columns, rows, name_of);
+        const bool are_within = response.message.empty();
+        for (const std::vector<double>* rows : {&given.starts, &given.ends})
+          if (const auto turned = findTurnedBase(robot, job.columns, rows->data(), count);
+              turned && response.message.empty())
+            response.message = name_of(turned->row) + ": " + turned->text;
         // The full states above serve to count the samples. For the check, the variables that the request does not name
         // come from the checked snapshot, which may be newer than `now`.
         job.states = std::move(given.starts);
@@ -66,7 +72,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
           response.body_1.push_back(collides ? answer.scene->bodyName(verdict.colliding[0]) : "");
           response.body_2.push_back(collides ? answer.scene->bodyName(verdict.colliding[1]) : "");
         }
-        if (response.message.empty() && motion_rule == MotionRule::Bound)
+        if (are_within && motion_rule == MotionRule::Bound)
           addWarning(unproven(answer.motions, "motion"), response.message);
         addWarning(givenUp(answer.motions, options_.max_motion_checks, "motion"), response.message);
         addWarnings(scene.warnings, response.message);

@@ -100,8 +100,11 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
               [this](std::size_t count) { server_.requireStateCount(count); });
         job.states = std::move(rows.values);
         job.group = request.group;
-        if (const auto outside =
-                findValueOutsideLimits(robot, job.columns, job.states.data(), job.states.size() / job.columns.size()))
+        const std::size_t count = job.states.size() / job.columns.size();
+        auto outside = findValueOutsideLimits(robot, job.columns, job.states.data(), count);
+        if (!outside && !is_of_current_state)
+          outside = findTurnedBase(robot, job.columns, job.states.data(), count);
+        if (outside)
         {
           response.message = shortLine("state " + std::to_string(outside->row) + ": " + outside->text);
           static OccasionalWarning warning;

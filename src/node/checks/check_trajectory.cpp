@@ -144,8 +144,9 @@ CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::
                                                      : outsideLimits(
                                                            robot, trajectory.columns, trajectory.rows,
                                                            [](std::size_t i) { return rowName(i + 1); });
+        const bool are_within = response.message.empty();
         addWarning(sidewaysMotion(robot, path.data(), path.data() + width, parts, "part"), response.message);
-        if (response.message.empty() && rule == MotionRule::Bound)
+        if (are_within && rule == MotionRule::Bound)
           addWarning(unproven(answer.motions, "part"), response.message);
         addWarning(givenUp(answer.motions, options_.max_motion_checks, "part"), response.message);
         addWarning(longTurn(robot, path), response.message);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 
 #include "collision/bounds/reach.h"
@@ -65,10 +64,7 @@ std::string beyondLimits(const RobotModel& robot, const double* states, std::siz
   for (std::size_t row = 0; row < count; ++row)
     if (const ValuesOutsideLimits outside = valuesOutside(ranges, robot, states + row * width); outside.count() != 0)
       return name_of(row) + ": " + outside.text() + "; the motion rule \"bound\" proves no motion there";
-  std::vector<int> columns(width);
-  std::iota(columns.begin(), columns.end(), 0);
-  const auto turned = findTurnedBase(robot, columns, states, count);
-  return turned ? name_of(turned->row) + ": " + turned->text : "";
+  return "";
 }
 
 std::string outsideLimits(const RobotModel& robot, const std::vector<int>& columns, const std::vector<double>& rows,

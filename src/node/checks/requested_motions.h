@@ -26,8 +26,8 @@ std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const RequestedMot
                                                               const double* starts, const double* ends,
                                                               std::size_t count, const CheckServicesOptions& limits);
 
-/// A warning if a joint is beyond its limits in one of `count` full states, or if a base turns by more than one turn;
-/// otherwise empty. The rule "bound" proves no motion beyond limits, even if the group does not move the joint.
+/// A warning if a joint is beyond its limits in one of `count` full states; otherwise empty. The rule "bound" proves no
+/// motion there, even if the group does not move the joint.
 /// `name_of`: what the warning calls a row of `states`.
 std::string beyondLimits(const RobotModel& robot, const double* states, std::size_t count,
                          const std::function<std::string(std::size_t row)>& name_of);

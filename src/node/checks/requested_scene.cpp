@@ -1,5 +1,7 @@
 #include "node/checks/requested_scene.h"
 
+#include <utility>
+
 #include "gpu_planning_scene/error.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/requested_changes.h"
@@ -23,7 +25,7 @@ RequestedScene requestedScene(const SceneStore& store, const SceneStore::Lookup&
   if (isEmpty(matrix))
     return requested;
   requested.matrix = std::make_shared<const AllowedCollisionMatrix>(matrixFrom(matrix, store.limits()));
-  if (std::string warning = warningOfDefaultsAlone(*requested.now.scene->robot, *requested.matrix); !warning.empty())
+  for (std::string& warning : warningsOfMatrix(*requested.now.scene->robot, *requested.matrix))
     requested.warnings.push_back(std::move(warning));
   return requested;
 }

@@ -102,6 +102,15 @@ void PlanService::prepare()
   const std::shared_ptr<const PlanningScene> scene = store_.snapshot().scene;
   if (scene->robot->groups().empty())
     return;
+  for (const Group& group : scene->robot->groups())
+    try
+    {
+      plugins_.find(configs_.find("", group.name).type, configs_.names());
+    }
+    catch (const std::exception& error)
+    {
+      ROS_DEBUG_STREAM("the planner of group '" << group.name << "' is not prepared: " << error.what());
+    }
   try
   {
     CheckerPool::Lease lease(checkers_, scene);
@@ -113,12 +122,12 @@ void PlanService::prepare()
     const JointNeighbourhood unmoved{std::vector<JointTravel>(scene->robot->joints().size()),
                                      std::vector<std::uint32_t>(kStatesToPrepare)};
     for (const Group& group : scene->robot->groups())
-    {
-      plugins_.find(configs_.find("", group.name).type, configs_.names());
-      // The first check loads the proofs, and the second one finds the bounds of motions.
-      lease.checker()->check(states.data(), kStatesToPrepare, group.name);
-      lease.checker()->check(states.data(), kStatesToPrepare, group.name, &unmoved);
-    }
+      if (ros::ok())
+      {
+        // The first check loads the proofs, and the second one finds the bounds of motions.
+        lease.checker()->check(states.data(), kStatesToPrepare, group.name);
+        lease.checker()->check(states.data(), kStatesToPrepare, group.name, &unmoved);
+      }
     lease.giveBack();
   }
   catch (const std::exception& error)

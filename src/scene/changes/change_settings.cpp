@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gpu_planning_scene/error.h"
 #include "scene/changes/matrix_entries.h"
@@ -51,8 +52,8 @@ void SceneChanger::changeMatrix(const SceneChange& change)
     count_.requireMatrix(*change.matrix);
     scene.allowed_collisions = *change.matrix;
     scene.matrix_source = MatrixSource::SceneFile;
-    if (const std::string warning = warningOfDefaultsAlone(*scene.robot, scene.allowed_collisions); !warning.empty())
-      result_.warnings.push_back(warning);
+    for (std::string& warning : warningsOfMatrix(*scene.robot, scene.allowed_collisions))
+      result_.warnings.push_back(std::move(warning));
   }
   else if (!change.is_diff)
   {

@@ -11,8 +11,9 @@ namespace gpu_planning_scene::core
 /// forbidden to touch, and that a new object of this name may touch.
 std::vector<std::string> removeEntriesOfObject(AllowedCollisionMatrix& matrix, const std::string& id);
 
-/// A warning about a new matrix that has defaults but no entries: it does not allow the pairs of the robot's own
-/// matrix, so they are checked. Empty if there is nothing to warn about. MoveIt takes such a matrix too, except in a
-/// difference.
-std::string warningOfDefaultsAlone(const RobotModel& robot, const AllowedCollisionMatrix& matrix);
+/// Warnings about a new matrix. One if it has defaults but no entries: it does not allow the pairs of the robot's own
+/// matrix, so they are checked; MoveIt takes such a matrix too, except in a difference. One if it allows pairs that are
+/// checked otherwise, because limits are wider than those of their proof (SrdfCollisions::unproven), as MoveIt's matrix
+/// does.
+std::vector<std::string> warningsOfMatrix(const RobotModel& robot, const AllowedCollisionMatrix& matrix);
 }  // namespace gpu_planning_scene::core

@@ -42,7 +42,7 @@ PlanningScene sceneFromYaml(const YamlValue& file, const std::string& folder, st
     if (readMatrix(*matrix, reader, scene.allowed_collisions))
     {
       scene.matrix_source = MatrixSource::SceneFile;
-      if (const std::string warning = warningOfDefaultsAlone(*robot, scene.allowed_collisions); !warning.empty())
+      for (const std::string& warning : warningsOfMatrix(*robot, scene.allowed_collisions))
         reader.warn(matrix->where() + ": " + warning);
     }
     else

@@ -50,6 +50,7 @@ TEST(DifferentialDrive, ThatWouldMoveSidewaysOrOnAnArcIsNamed)
   EXPECT_NE(std::string::npos, messageFor(*robot, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.25}).find("turns by 0.25 radians"));
   EXPECT_NE("", messageFor(*robot, {0.0, 0.0, 0.0}, {0.1, 0.0011, 0.0}));
   EXPECT_EQ("", messageFor(*robot, {0.0, 0.0, 1.57}, {0.0, 1.0, 1.57})) << "a heading with two decimals";
+  EXPECT_EQ("", messageFor(*robot, {0.0, 0.0, 1.57}, {0.0, 20.0, 1.57}));
   EXPECT_NE("", messageFor(*robot, {0.0, 0.0, 0.0}, {std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0}));
   const std::vector<double> rows = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0};
   const std::vector<double> ends = {1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0};
