@@ -62,9 +62,16 @@ using Lanes [[gnu::vector_size(kLanes * sizeof(double))]] = double;
     least = is_less ? sum : least;
     least_block = is_less ? Numbers{} + static_cast<std::int64_t>(block) : least_block;
   }
+  // Copies, because clang binds no reference to an element of a vector.
+  const auto order = [&](std::size_t lane)
+  {
+    const double sum = least[lane];
+    const std::int64_t block = least_block[lane];
+    return std::pair(sum, block);
+  };
   std::size_t found = 0;
   for (std::size_t lane = 1; lane < kLanes; ++lane)
-    if (std::pair(least[lane], least_block[lane]) < std::pair(least[found], least_block[found]))
+    if (order(lane) < order(found))
       found = lane;
   return static_cast<std::size_t>(least_block[found]) * kLanes + found;
 }
