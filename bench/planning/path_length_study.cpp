@@ -34,16 +34,6 @@ namespace og = ompl::geometric;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::array<double, 10> kTimes = {0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0};  // seconds
 
-struct Settings
-{
-  std::string out;
-  std::string device = "auto";
-  std::string planners;  // part of their names
-  std::size_t problems = 0;
-  double seconds = 10.0;
-  MotionRule rule = MotionRule::Bound;
-};
-
 const std::vector<std::string>& plannerNames()
 {
   static const std::vector<std::string> names = {"AnytimeBatch", "RRTstar", "BITstar", "AITstar"};
@@ -74,10 +64,10 @@ double bestLength(const ob::Planner& planner)
 using Lengths = std::array<double, kTimes.size()>;
 
 Lengths plan(const PlanningProblem& problem, const std::shared_ptr<StateChecker>& checker, const std::string& name,
-             const Settings& settings, unsigned int seed)
+             MotionRule rule, double seconds, unsigned int seed)
 {
   ompl::RNG::setSeed(seed);
-  const PlanningCase in(problem, checker, settings.rule);
+  const PlanningCase in(problem, checker, rule);
   in.definition->setOptimizationObjective(std::make_shared<PathLengthObjective>(in.information));
   const ob::PlannerPtr planner = makePlanner(name, in.information);
   planner->setProblemDefinition(in.definition);
@@ -94,28 +84,21 @@ Lengths plan(const PlanningProblem& problem, const std::shared_ptr<StateChecker>
         for (; next < kTimes.size() && now >= kTimes[next]; ++next)
           lengths[next] = known;
         known = bestLength(*planner);
-        return now >= settings.seconds;
+        return now >= seconds;
       });
   planner->solve(ptc);
   double last = kInfinity;
   if (in.definition->hasExactSolution())
     last = in.definition->getSolutionPath()->length();
-  for (; next < kTimes.size() && kTimes[next] <= settings.seconds; ++next)
+  for (; next < kTimes.size() && kTimes[next] <= seconds; ++next)
     lengths[next] = last;
   return lengths;
 }
 
 void study(const CommandLine& arguments)
 {
-  constexpr std::size_t kMax = 1000000;
-  Settings settings;
-  settings.out = arguments.required("--out");
-  settings.problems = arguments.count("--problems", kMax, 1, kMax);
-  settings.seconds = arguments.number("--seconds", settings.seconds, 1e-3, 1e6);
-  settings.device = arguments.value("--device", settings.device);
-  settings.planners = arguments.value("--planners", settings.planners);
-  settings.rule = motionRuleFromName(arguments.value("--rule", "bound"));
-  makeTableFolder(settings.out);
+  const StudySettings settings(arguments);
+  const MotionRule rule = motionRuleFromName(arguments.value("--rule", "bound"));
   CsvTable table(settings.out, "path_lengths.csv", {"problem", "planner", "seconds", "length"});
   ProblemChecker checkers(settings.device);
   std::map<std::string, std::array<std::vector<double>, kTimes.size()>> found;
@@ -126,9 +109,9 @@ void study(const CommandLine& arguments)
     const std::shared_ptr<StateChecker> checker = checkers.in(problem);
     for (const std::string& name : plannerNames())
     {
-      if (name.find(settings.planners) == std::string::npos)
+      if (!settings.isChosen(name))
         continue;
-      const Lengths lengths = plan(problem, checker, name, settings, static_cast<unsigned int>(1 + i));
+      const Lengths lengths = plan(problem, checker, name, rule, settings.seconds, static_cast<unsigned int>(1 + i));
       for (std::size_t k = 0; k < kTimes.size() && kTimes[k] <= settings.seconds; ++k)
       {
         table.add({chosen[i], name, kTimes[k], lengths[k]});
@@ -154,17 +137,13 @@ int main(int argc, char** argv)
 {
   using namespace gpu_planning_scene::core;
   ompl::msg::noOutputHandler();
+  std::vector<Option> options = benchmark::StudySettings::options();
+  options.push_back({"--rule", "RULE", "motion rule: bound (default) or samples"});
   const Tool tool{
-      "path_length_study",
-      "--out DIR [OPTIONS]",
+      "path_length_study", "--out DIR [OPTIONS]",
       "Lets planners shorten paths of the ur5, and records the length of the best path after 0.01 to 10 s:\n"
-      "AnytimeBatch, and OMPL's RRTstar, BITstar and AITstar on this package's checker.",
-      {{"--out", "DIR", "folder for path_lengths.csv, a row for each problem, planner and time"},
-       {"--problems", "N", "number of problems, spread over all sets (default: all)"},
-       {"--seconds", "S", "time of each plan (default 10)"},
-       {"--planners", "NAME", "only planners with this in their name (default: all)"},
-       {"--rule", "RULE", "motion rule: bound (default) or samples"},
-       {"--device", "D", "\"auto\" (a GPU, else llvmpipe), \"software\", an index, part of a renderer's name"}},
-      benchmark::study};
+      "AnytimeBatch, and OMPL's RRTstar, BITstar and AITstar on this package's checker. Writes\n"
+      "path_lengths.csv, a row for each problem, planner and time.",
+      options, benchmark::study};
   return runTool(tool, argc, argv);
 }

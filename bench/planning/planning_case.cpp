@@ -1,8 +1,8 @@
 #include "planning/planning_case.h"
 
 #include <iostream>
-#include <vector>
 
+#include "benchmark/csv_table.h"
 #include "collision/checkers/cpu_scene.h"
 #include "collision/checkers/open_checker.h"
 #include "collision/filter/proofs/proof_worker.h"
@@ -10,6 +10,30 @@
 namespace gpu_planning_scene::core::benchmark
 {
 namespace ob = ompl::base;
+
+namespace
+{
+constexpr std::size_t kAllProblems = 1000000;
+}  // namespace
+
+StudySettings::StudySettings(const CommandLine& arguments)
+  : out(arguments.required("--out")),
+    device(arguments.value("--device", "auto")),
+    planners(arguments.value("--planners", "")),
+    problems(arguments.count("--problems", kAllProblems, 1, kAllProblems)),
+    seconds(arguments.number("--seconds", 10.0, 1e-3, 1e6))
+{
+  makeTableFolder(out);
+}
+
+std::vector<Option> StudySettings::options()
+{
+  return {{"--out", "DIR", "folder for the tables"},
+          {"--problems", "N", "number of problems, spread over all sets (default: all)"},
+          {"--seconds", "S", "time of each plan, at most (default 10)"},
+          {"--planners", "NAME", "only planners with this in their name, for example \"batch\" (default: all)"},
+          {"--device", "D", "\"auto\" (a GPU, else llvmpipe), \"software\", an index, part of a renderer's name"}};
+}
 
 PlanningCase::PlanningCase(const PlanningProblem& problem, const std::shared_ptr<StateChecker>& checker,
                            MotionRule rule)

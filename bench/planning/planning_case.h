@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <ompl/base/ProblemDefinition.h>
 #include <ompl/base/SpaceInformation.h>
 
+#include "command_line/command_line.h"
 #include "gpu_planning_scene/motion_checker.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "gpu_planning_scene/planning/motion_validator.h"
@@ -15,6 +19,21 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
+/// What the studies of planners have in common.
+struct StudySettings
+{
+  explicit StudySettings(const CommandLine& arguments);
+  static std::vector<Option> options();
+
+  bool isChosen(const std::string& planner) const { return planner.find(planners) != std::string::npos; }
+
+  std::string out;  ///< folder of the tables; it exists
+  std::string device;
+  std::string planners;  ///< part of the names of the chosen planners
+  std::size_t problems;  ///< number of problems, spread over all sets
+  double seconds;        ///< for each plan
+};
+
 /// A planning problem in OMPL's terms, with our validity checkers.
 struct PlanningCase
 {

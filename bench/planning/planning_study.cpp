@@ -31,16 +31,6 @@ namespace
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
-struct Settings
-{
-  std::string out;
-  std::string device = "auto";
-  std::string planners;  // part of their names
-  std::size_t problems = 0;
-  std::size_t runs = 0;
-  double seconds = 10.0;
-};
-
 enum class Method
 {
   Batch,
@@ -107,10 +97,11 @@ void checkAgain(const og::PathGeometric& path, const GroupStateSpace& space, con
 class Study
 {
  public:
-  explicit Study(const Settings& settings)
-    : settings_(settings),
-      ours_(settings.device),
-      table_(settings.out, "planning.csv",
+  Study(StudySettings settings, std::size_t runs)
+    : settings_(std::move(settings)),
+      runs_(runs),
+      ours_(settings_.device),
+      table_(settings_.out, "planning.csv",
              {"problem", "run", "rule", "method", "solved", "seconds", "length", "waypoints", "states_checked",
               "checked_again", "colliding"})
   {
@@ -127,10 +118,7 @@ class Study
   }
 
  private:
-  bool isChosen(Method method) const
-  {
-    return std::string(nameOf(method)).find(settings_.planners) != std::string::npos;
-  }
+  bool isChosen(Method method) const { return settings_.isChosen(nameOf(method)); }
 
   void runProblem(const std::string& name, std::size_t number)
   {
@@ -142,7 +130,7 @@ class Study
       exact_ = std::make_shared<CpuChecker>(problem.scene);
     const auto fcl = isChosen(Method::RrtConnectFcl) ? std::make_shared<FclChecker>(problem.scene, problem.group)
                                                      : std::shared_ptr<FclChecker>();
-    for (std::size_t run = 0; run < settings_.runs; ++run)
+    for (std::size_t run = 0; run < runs_; ++run)
       for (const MotionRule rule : {MotionRule::Bound, MotionRule::Samples})
         for (std::size_t k = 0; k < std::size(kMethods); ++k)
         {
@@ -220,7 +208,8 @@ class Study
     }
   }
 
-  Settings settings_;
+  const StudySettings settings_;
+  const std::size_t runs_;
   ProblemChecker ours_;
   CsvTable table_;
   std::shared_ptr<CpuChecker> exact_;
@@ -230,16 +219,7 @@ class Study
 
 void study(const CommandLine& arguments)
 {
-  constexpr std::size_t kMax = 1000000;
-  Settings settings;
-  settings.out = arguments.required("--out");
-  settings.problems = arguments.count("--problems", kMax, 1, kMax);
-  settings.runs = arguments.count("--runs", 1, 1, kMax);
-  settings.seconds = arguments.number("--seconds", settings.seconds, 1e-3, 1e6);
-  settings.device = arguments.value("--device", settings.device);
-  settings.planners = arguments.value("--planners", settings.planners);
-  makeTableFolder(settings.out);
-  if (Study(settings).run())
+  if (Study(StudySettings(arguments), arguments.count("--runs", 1, 1, 1000000)).run())
     throw Error("a path that was accepted under the bound collides: see planning.csv");
 }
 }  // namespace
@@ -249,19 +229,14 @@ int main(int argc, char** argv)
 {
   using namespace gpu_planning_scene::core;
   ompl::msg::noOutputHandler();
-  const Tool tool{
-      "planning_study",
-      "--out DIR [OPTIONS]",
-      "Plans the problems of the ur5 with the batch planner, and with OMPL's RRTConnect on this package's\n"
-      "checker and on FCL, under both motion rules. Prints how many are solved and how fast.\n"
-      "Exit code: 0 no wrong path, 1 a path that was accepted under the bound collides, or another error,\n"
-      "2 bad usage.",
-      {{"--out", "DIR", "folder for planning.csv, a row for each plan, and planning_summary.csv"},
-       {"--problems", "N", "number of problems, spread over all sets (default: all)"},
-       {"--runs", "N", "runs of each problem with different seeds (default 1)"},
-       {"--seconds", "S", "time limit of each plan (default 10)"},
-       {"--planners", "NAME", "only planners with this in their name, for example \"batch\" (default: all)"},
-       {"--device", "D", "\"auto\" (a GPU, else llvmpipe), \"software\", an index, part of a renderer's name"}},
-      benchmark::study};
+  std::vector<Option> options = benchmark::StudySettings::options();
+  options.push_back({"--runs", "N", "runs of each problem with different seeds (default 1)"});
+  const Tool tool{"planning_study", "--out DIR [OPTIONS]",
+                  "Plans the problems of the ur5 with the batch planner, and with OMPL's RRTConnect on this package's\n"
+                  "checker and on FCL, under both motion rules. Prints how many are solved and how fast. Writes\n"
+                  "planning.csv, a row for each plan, and planning_summary.csv.\n"
+                  "Exit code: 0 no wrong path, 1 a path that was accepted under the bound collides, or another error,\n"
+                  "2 bad usage.",
+                  options, benchmark::study};
   return runTool(tool, argc, argv);
 }

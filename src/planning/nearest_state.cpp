@@ -83,57 +83,36 @@ struct Functions
   std::size_t (*least_sum)(const double* values, std::size_t blocks, const double* query, std::size_t count);
 };
 
-void sumSquaresBaseline(const double* values, std::size_t blocks, std::size_t width, const double* query,
-                        std::size_t count, double* sums)
-{
-  sumSquaresOf(values, blocks, width, query, count, sums);
-}
+// The attribute `target` is no parameter of a template.
+#define GPS_NEAREST_FUNCTIONS(NAME, TARGET)                                                                           \
+  TARGET void sumSquares##NAME(const double* values, std::size_t blocks, std::size_t width, const double* query,      \
+                               std::size_t count, double* sums)                                                       \
+  {                                                                                                                   \
+    sumSquaresOf(values, blocks, width, query, count, sums);                                                          \
+  }                                                                                                                   \
+  TARGET std::size_t leastSum##NAME(const double* values, std::size_t blocks, const double* query, std::size_t count) \
+  {                                                                                                                   \
+    return leastSumOf(values, blocks, query, count);                                                                  \
+  }                                                                                                                   \
+  constexpr Functions k##NAME = {sumSquares##NAME, leastSum##NAME}
 
-std::size_t leastSumBaseline(const double* values, std::size_t blocks, const double* query, std::size_t count)
-{
-  return leastSumOf(values, blocks, query, count);
-}
-
+GPS_NEAREST_FUNCTIONS(Baseline, );
 #ifdef __x86_64__
-[[gnu::target("avx2")]] void sumSquaresAvx2(const double* values, std::size_t blocks, std::size_t width,
-                                            const double* query, std::size_t count, double* sums)
-{
-  sumSquaresOf(values, blocks, width, query, count, sums);
-}
-
-[[gnu::target("avx2")]] std::size_t leastSumAvx2(const double* values, std::size_t blocks, const double* query,
-                                                 std::size_t count)
-{
-  return leastSumOf(values, blocks, query, count);
-}
-
-[[gnu::target("avx512f")]] void sumSquaresAvx512(const double* values, std::size_t blocks, std::size_t width,
-                                                 const double* query, std::size_t count, double* sums)
-{
-  sumSquaresOf(values, blocks, width, query, count, sums);
-}
-
-[[gnu::target("avx512f")]] std::size_t leastSumAvx512(const double* values, std::size_t blocks, const double* query,
-                                                      std::size_t count)
-{
-  return leastSumOf(values, blocks, query, count);
-}
+GPS_NEAREST_FUNCTIONS(Avx2, [[gnu::target("avx2")]]);
+GPS_NEAREST_FUNCTIONS(Avx512, [[gnu::target("avx512f")]]);
 #endif
+#undef GPS_NEAREST_FUNCTIONS
 
 /// The fastest functions that the machine can run. All have the same results.
 const Functions& fastest()
 {
-  static const Functions chosen = []
-  {
 #ifdef __x86_64__
-    if (__builtin_cpu_supports("avx512f"))
-      return Functions{sumSquaresAvx512, leastSumAvx512};
-    if (__builtin_cpu_supports("avx2"))
-      return Functions{sumSquaresAvx2, leastSumAvx2};
+  static const bool has_avx512 = __builtin_cpu_supports("avx512f") != 0;
+  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+  if (has_avx512 || has_avx2)
+    return has_avx512 ? kAvx512 : kAvx2;
 #endif
-    return Functions{sumSquaresBaseline, leastSumBaseline};
-  }();
-  return chosen;
+  return kBaseline;
 }
 }  // namespace
 

@@ -35,8 +35,6 @@ std::string commentText(const GeneratedMatrix& matrix, const RobotModel& robot, 
       limits.push_back(describeVariable(variable));
   if (!limits.empty())
     text << "\n    The limits are: " << nameList(limits) << ". ";
-  for (const std::string& source : describeLimitSources(robot))
-    text << "\n    " << source << ". ";
   return text.str();
 }
 

@@ -118,9 +118,7 @@ TEST_F(GenerateAcm, TheCommentsNameTheLimitsForWhichTheProofsHold)
   const std::string planning =
       folder.write("limits.yaml", "joint_limits: {slide: {min_position: -1, max_position: 9}}");
   ASSERT_EQ(0, generate({"--samples", "100", "--planning", planning}).exit_code);
-  EXPECT_NE(std::string::npos, contentOf(out).find("The limits are: slide (-1 to 9). \n    limits from " + planning +
-                                                   ": slide (-1 to 9). -->"))
-      << contentOf(out);
+  EXPECT_NE(std::string::npos, contentOf(out).find("The limits are: slide (-1 to 9). -->")) << contentOf(out);
 }
 
 TEST_F(GenerateAcm, APairThatCollidesInNoRandomStateStaysCheckedWithoutAProof)

@@ -14,7 +14,8 @@ namespace
 // People write headings with two or three decimals. A base cannot be steered more exactly than this.
 constexpr double kAside = 1e-3;  // metres, metres for each metre of the way, and radians
 
-/// What the motion demands of the base that it cannot do; empty: nothing. `from`, `to`: x, y and theta.
+/// The part of the motion that the base cannot drive, in words; empty if it can drive all of it. `from`, `to`: x, y and
+/// theta.
 std::string sidewaysPart(const double* from, const double* to)
 {
   const Eigen::Vector2d way(to[0] - from[0], to[1] - from[1]);

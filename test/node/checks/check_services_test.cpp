@@ -12,6 +12,7 @@
 #include "collision/checkers/scene_text.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "model/model_testing.h"
+#include "node/checks/answering_scene.h"
 #include "node/checks/check_services.h"
 #include "node/messages/requested_states.h"
 #include "scene/slider_robot.h"
@@ -106,12 +107,8 @@ TEST(MotionsOfADifferentialDrive, AreRefusedIfTheyGoSideways)
       "<robot name='r'><virtual_joint name='drive' type='planar' parent_frame='world' child_link='body'/>"
       "<joint_property joint_name='drive' property_name='motion_model' value='diff_drive'/></robot>",
       {});
-  SceneStore store(PlanningScene(robot), {}, {});
-  CheckServer server(
-      store, [](std::shared_ptr<const PlanningScene> scene) { return std::make_shared<CpuChecker>(std::move(scene)); },
-      {});
-  MemoryGuard memory(0);
-  CheckServices services(store, server, memory, {1000, 1000000, 10}, nullptr);
+  AnsweringScene answering{PlanningScene(robot)};
+  CheckServices& services = answering.services;
   CheckMotions::Request motions;
   motions.joint_names = {"drive/x", "drive/y", "drive/theta"};
   motions.starts = {0.0, 0.0, 0.0};
@@ -148,13 +145,8 @@ TEST(MotionsBesideAFloor, ThatAreNotProvenSaySo)
   floor.id = "floor";
   floor.shapes = {{HalfSpace{Eigen::Vector3d::UnitZ(), -0.50001}}};
   scene.objects = {floor};
-  SceneStore store(std::move(scene), {}, {});
-  CheckServer server(store,
-                     [](std::shared_ptr<const PlanningScene> its_scene)
-                     { return std::make_shared<CpuChecker>(std::move(its_scene)); },
-                     {});
-  MemoryGuard memory(0);
-  CheckServices services(store, server, memory, {1000, 1000000, 10}, nullptr);
+  AnsweringScene answering(std::move(scene));
+  CheckServices& services = answering.services;
   CheckMotions::Request motions;
   motions.joint_names = {"drive/x", "drive/y", "drive/theta"};
   motions.starts = {0.0, 0.0, 0.0};

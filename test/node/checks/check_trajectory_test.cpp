@@ -8,10 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "model/model_testing.h"
-#include "node/checks/check_services.h"
+#include "node/checks/answering_scene.h"
 #include "scene/slider_robot.h"
 #include "support/fcl_agreement.h"
 #include "support/repetitions.h"
@@ -35,23 +34,6 @@ std::int32_t bodyIndex(const PlanningScene& scene, const std::string& name)
     if (scene.bodyName(body) == name)
       return body;
 }
-
-/// A scene and the services that answer in it.
-struct Answering
-{
-  explicit Answering(PlanningScene scene, std::size_t max_motion_checks = 1000000)
-    : store(std::move(scene), {}, {}), services(store, server, memory, {100000, max_motion_checks, 10}, nullptr)
-  {
-  }
-
-  SceneStore store;
-  CheckServer server{store,
-                     [](std::shared_ptr<const PlanningScene> scene)
-                     { return std::make_shared<CpuChecker>(std::move(scene)); },
-                     {}};
-  MemoryGuard memory{0};
-  CheckServices services;
-};
 
 CheckTrajectory::Request trajectoryOf(const std::vector<std::string>& names,
                                       const std::vector<std::vector<double>>& waypoints)
@@ -102,7 +84,7 @@ class SliderTrajectory : public testing::Test
     EXPECT_TRUE(response.waypoint_valid.empty());
   }
 
-  Answering slider{sliderAndWall(5)};
+  AnsweringScene slider{sliderAndWall(5)};
 };
 
 TEST_F(SliderTrajectory, EachWaypointAndEachPartIsAnswered)
@@ -263,7 +245,7 @@ TEST_F(SliderTrajectory, SampledValuesBeyondTheLimitsAreNamedWithTheirWaypoint)
 
 TEST_F(SliderTrajectory, PartsThatNeedTooManyChecksAreMarked)
 {
-  Answering few(sliderAndWall(), 3);  // the last half of the motion takes two checks more
+  AnsweringScene few(sliderAndWall(), 3);  // the last half of the motion takes two checks more
   few.store.updateState({{"slide", 0.0}, {"turn", 0.0}});
   auto request = trajectoryOf({"slide"}, {{0.7999}});  // 0.1 mm before the wall
   request.resolution = request.translation_resolution = 0.3;
@@ -284,7 +266,7 @@ TEST(MultiDofTrajectory, IsCheckedAsTheSameValuesByName)
     PlanningScene scene(sliderRobotOnFloor(type));
     scene.objects = sliderAndWall().objects;
     scene.objects[0].pose.translation().x() += 2.0;
-    Answering robot(std::move(scene));
+    AnsweringScene robot(std::move(scene));
     robot.store.updateState({{"slide", 0.0}, {"turn", 0.0}});
     CheckTrajectory::Request transforms;
     transforms.resolution = transforms.translation_resolution = 0.05;
@@ -352,7 +334,7 @@ TEST(MultiDofTrajectory, ATransformIsTheMotionFromTheOriginOfTheJoint)
     post.pose.translation().x() = 5.0;
     post.shapes = {{Box{{0.1, 0.1, 5.0}}}};
     scene.objects = {post};
-    Answering robot(std::move(scene));
+    AnsweringScene robot(std::move(scene));
     robot.store.updateState({{"lift", 0.0}});
     CheckTrajectory::Request request;
     request.resolution = request.translation_resolution = 0.05;
@@ -373,14 +355,14 @@ TEST(MultiDofTrajectory, ATransformIsTheMotionFromTheOriginOfTheJoint)
 
 TEST(MultiDofTrajectory, APartOfARotationIsRefused)
 {
-  Answering robot((PlanningScene(sliderRobotOnFloor("floating"))));
+  AnsweringScene robot((PlanningScene(sliderRobotOnFloor("floating"))));
   robot.store.updateState({{"slide", 0.0}, {"turn", 0.0}});
   EXPECT_FALSE(robot.services.checkTrajectory(trajectoryOf({"floor/rot_x"}, {{0.7}})).success);
 }
 
 TEST(MultiDofTrajectory, APlanarJointThatTurnsFarGivesAWarning)
 {
-  Answering robot((PlanningScene(sliderRobotOnFloor("planar"))));
+  AnsweringScene robot((PlanningScene(sliderRobotOnFloor("planar"))));
   robot.store.updateState({{"slide", 0.0}, {"turn", 0.0}, {"floor/x", 0.0}, {"floor/y", 0.0}, {"floor/theta", 0.0}});
   const auto said = [&robot](double angle)
   { return robot.services.checkTrajectory(trajectoryOf({"floor/theta"}, {{angle}})).message; };
@@ -400,7 +382,7 @@ TEST(ContinuousTrajectory, TurnsInTheShorterDirectionAndSaysWhereThatMayNotBeMea
   post.pose.translation().x() = -0.8;
   post.shapes = {{Box{{0.1, 0.1, 0.1}}}};
   scene.objects = {post};
-  Answering robot(std::move(scene));
+  AnsweringScene robot(std::move(scene));
   robot.store.updateState({{"turn", 2.0}});
   const auto through = robot.services.checkTrajectory(trajectoryOf({"turn"}, {{4.0}}));
   EXPECT_FALSE(through.valid);
@@ -445,7 +427,7 @@ class RandomTrajectories : public testing::Test
   }
 
   const TestScene& test = testScene("arm_boxes");
-  Answering arm{*test.scene};
+  AnsweringScene arm{*test.scene};
   std::vector<std::string> names = variableNames(*test.scene->robot);
 };
 
