@@ -46,13 +46,12 @@ class ValuesOutsideLimits
 struct ValueOutsideLimits
 {
   std::size_t row;
-  std::string text;  ///< the line of ValuesOutsideLimits for all such values of the table, or a line about the range or
-                     ///< the angle
+  /// The line of ValuesOutsideLimits for all such values of the table, or a line about the range or the angle.
+  std::string text;
 };
 
 /// The first angle of a planar joint that is more than one turn and so may be in degrees. For values that a person
-/// gives: the yaw of odometry may be any number of turns. `rows`: `count` rows of
-/// values for the variables `columns`.
+/// gives: the yaw of odometry may be any number of turns. `rows`: `count` rows of values for the variables `columns`.
 std::optional<ValueOutsideLimits> findTurnedBase(const RobotModel& robot, const std::vector<int>& columns,
                                                  const double* rows, std::size_t count);
 

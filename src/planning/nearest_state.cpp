@@ -83,7 +83,7 @@ struct Functions
   std::size_t (*least_sum)(const double* values, std::size_t blocks, const double* query, std::size_t count);
 };
 
-// The attribute `target` is no parameter of a template.
+// A macro, because the attribute `target` cannot be a parameter of a template.
 #define GPS_NEAREST_FUNCTIONS(NAME, TARGET)                                                                           \
   TARGET void sumSquares##NAME(const double* values, std::size_t blocks, std::size_t width, const double* query,      \
                                std::size_t count, double* sums)                                                       \

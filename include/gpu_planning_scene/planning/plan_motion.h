@@ -69,7 +69,7 @@ struct PlanningResult
 /// is not verified. `stop` is called from time to time; when it returns true, planning ends early, as soon as the
 /// planner reacts. Thread-safe if each call has a checker of its own. Throws Error for an unknown group, parameter or
 /// projection joint; for a row with a wrong length or a value that is not finite; for an angle of the start or a
-/// goal beyond 1e6 rad (continuous and planar joints); without a goal; and unless the times are within their limits.
+/// goal beyond 1e6 rad (continuous and planar joints); without a goal; and for times beyond their limits.
 /// Errors of GroupStateSpace and MotionChecker, and exceptions of the planner, pass through.
 PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,

@@ -121,7 +121,7 @@ class RobotModelBuilder
         setMotionModel(property);
       else if (property.property != "angular_distance_weight" && property.property != "min_translational_distance")
         warnings_.push_back(property.where + ": joint '" + property.joint + "' has the unknown property '" +
-                            property.property + "', which is not used; if its motion is meant, it is motion_model");
+                            property.property + "', which is not used (the one for its motion is motion_model)");
     SrdfCollisions& collisions = model_->srdf_collisions_;
     collisions.disabled = resolvePairs(srdf.disabled);
     collisions.enabled = resolvePairs(srdf.enabled);
