@@ -15,9 +15,11 @@
 #include "bindings/bindings.h"
 #include "bindings/interrupt.h"
 #include "bindings/motion_checker.h"
+#include "bindings/named_rows.h"
 #include "bindings/state_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
+#include "gpu_planning_scene/planning/group_state_space.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
 
 namespace gpu_planning_scene::python
@@ -76,6 +78,37 @@ std::optional<Eigen::AlignedBox3d> workspaceFrom(const py::object& workspace)
   return box;
 }
 
+/// Full states, one per goal. Of the states that the SRDF names, only the variables of the group count: a state `home`
+/// of an arm and its hand is also a goal of the arm.
+std::vector<std::vector<double>> goalsFrom(const py::object& goals, const PlanningQuery& query,
+                                           const std::shared_ptr<const core::RobotModel>& robot)
+{
+  const Rows rows = rowsFrom(goals, *robot, "goals", &query.start);
+  const std::size_t width = query.start.size();
+  std::vector<std::vector<double>> states;
+  for (std::size_t i = 0; i < rows.count; ++i)
+    states.emplace_back(rows.data() + i * width, rows.data() + (i + 1) * width);
+  const std::vector<std::string> names = namesFrom(goals);
+  if (names.empty())
+    return states;
+  const core::GroupStateSpace space(robot, query.group, query.workspace);
+  for (std::size_t i = 0; i < names.size(); ++i)
+  {
+    const std::vector<double> named = std::exchange(states[i], query.start);
+    const std::vector<int> set = robot->namedState(names[i]).variables;
+    bool sets_group = false;
+    for (const int variable : space.variables())
+    {
+      states[i][static_cast<std::size_t>(variable)] = named[static_cast<std::size_t>(variable)];
+      sets_group = sets_group || std::find(set.begin(), set.end(), variable) != set.end();
+    }
+    if (!sets_group)
+      throw core::Error("goals: the state '" + names[i] + "' of the SRDF has no variable of the group '" + query.group +
+                        "'");
+  }
+  return states;
+}
+
 PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>& group, const py::object& start,
                           const py::object& goals, Arg<double> seconds, Arg<bool> simplify,
                           const Arg<std::string>& rule, Arg<double> resolution, Arg<double> translation_resolution,
@@ -86,16 +119,13 @@ PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>
   PlanningQuery query;
   query.group = group.value;
   query.start = rowFrom(start, *scene->robot, "start", &scene->current_state);
-  const Rows rows = rowsFrom(goals, *scene->robot, "goals", &query.start);
-  const std::size_t width = query.start.size();
-  for (std::size_t i = 0; i < rows.count; ++i)
-    query.goals.emplace_back(rows.data() + i * width, rows.data() + (i + 1) * width);
   query.seconds = seconds.value;
   query.simplify = simplify.value;
   query.motions = motionOptionsFrom(rule, resolution, translation_resolution, max_samples);
   query.parameters = parametersFrom(parameters);
   query.seed = seedFrom(seed);
   query.workspace = workspaceFrom(workspace);
+  query.goals = goalsFrom(goals, query, scene->robot);
   query.optimize_seconds = optimize.value;
   Interrupt interrupt;
   PlanningResult result = withoutLock(
@@ -153,7 +183,8 @@ void addPlanning(py::module_& module)
       "start: shape (variables,). goals: shape (n, variables) or (variables,); the motion may end at any of "
       "them. Both can be names of states of the SRDF: variables that the start does not set have their values from the "
       "scene's current_state, and variables that a goal does not set have theirs from the start. Variables outside the "
-      "group keep their values from the start. seconds: for planning; "
+      "group keep their values from the start: a row of goals must have the same values for them, and of a named goal "
+      "they do not count. seconds: for planning; "
       "simplification and the last check of the path come afterwards. simplify: shortens the path. rule, "
       "resolution, translation_resolution, max_samples: as in MotionChecker. parameters: of the planner, by "
       "OMPL's names, for example {\"range\": 0.5}. seed: from 1 to 4294967295; calls with the same seed "
@@ -164,9 +195,9 @@ void addPlanning(py::module_& module)
       "planar and floating joints of the group are planned for; None: that of unbounded_translation. "
       "optimize: seconds in which the path is made shorter after simplification.\n\nReturns a "
       "PlanningResult: a motion that "
-      "is not found is not an exception. Raises Error for an unknown group or parameter, for other shapes, and for "
-      "values that "
-      "are not finite. Ctrl-C ends the call. A checker serves one call after the other.\n\n"
+      "is not found is not an exception. Raises Error for an unknown group or parameter, for other shapes, for "
+      "values that are not finite, and for a goal that moves a variable outside the group, or is a named state "
+      "without variables of the group. Ctrl-C ends the call. A checker serves one call after the other.\n\n"
       "    result = gps.plan_motion(checker, \"arm\", start, goal)\n"
       "    print(result.status, result.message, result.waypoints)");
 }

@@ -81,6 +81,20 @@ void validateQuery(const PlanningScene& scene, const PlanningQuery& query)
                 " s; it must be at least 0 and at most 1e9");
 }
 
+/// Refuses goals that no motion of the group reaches, because they move other variables.
+void requireMotionOfGroup(const GroupStateSpace& space, const PlanningQuery& query)
+{
+  std::vector<bool> moves(query.start.size(), false);
+  for (const int variable : space.variables())
+    moves[static_cast<std::size_t>(variable)] = true;
+  for (std::size_t i = 0; i < query.goals.size(); ++i)
+    for (std::size_t j = 0; j < moves.size(); ++j)
+      if (!moves[j] && query.goals[i][j] != query.start[j])
+        throw Error("goal " + std::to_string(i) + ": " + space.robot()->variables()[j].name + " is " +
+                    numberText(query.goals[i][j]) + " and at the start " + numberText(query.start[j]) +
+                    ", but group '" + query.group + "' does not plan for it; give it the value of the start");
+}
+
 std::string seconds(double value)
 {
   std::array<char, 32> text;
@@ -117,6 +131,7 @@ class Plan
       information_(std::make_shared<ob::SpaceInformation>(space_)),
       start_(space_)
   {
+    requireMotionOfGroup(*space_, query);
     if (!query.projection.empty())
       space_->projectOnto(query.projection);
     information_->setStateValidityChecker(std::make_shared<StateValidityChecker>(information_, scene_, checker_));

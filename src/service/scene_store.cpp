@@ -6,6 +6,8 @@
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
+#include "model/text/name_list.h"
+#include "model/text/number_text.h"
 #include "model/virtual_joint.h"
 #include "scene/changes/matrix_entries.h"
 
@@ -92,16 +94,25 @@ PartialState Snapshot::partialState() const
 std::string Snapshot::assumedBase(const std::vector<int>& given) const
 {
   const RobotModel& robot = *scene->robot;
-  for (const int variable : virtualVariables(robot))
+  const std::vector<int> variables = virtualVariables(robot);
+  std::vector<std::string> unset;
+  std::vector<std::string> assumed;
+  for (const int variable : variables)
     if (!known[static_cast<std::size_t>(variable)] && std::find(given.begin(), given.end(), variable) == given.end())
     {
-      if (!base.values.empty())
-        return base.warning;
-      return "no state has set " + robot.variables()[static_cast<std::size_t>(variable)].name +
-             " of the virtual joint, so the robot is assumed at the origin of frame '" + robot.planningFrame() + "'" +
-             (base.warning.empty() ? "" : " (" + base.warning + ")");
+      unset.push_back(robot.variables()[static_cast<std::size_t>(variable)].name);
+      assumed.push_back(unset.back() + " = " + numberText(state[static_cast<std::size_t>(variable)]));
     }
-  return "";
+  if (unset.empty())
+    return "";
+  if (!base.values.empty())
+    return base.warning;
+  const std::string reason = base.warning.empty() ? "" : " (" + base.warning + ")";
+  if (unset.size() < variables.size())
+    return "some variables of the virtual joint are not set; they are assumed: " + nameList(assumed) + reason;
+  return "no state has set " + unset.front() +
+         " of the virtual joint, so the robot is assumed at the origin of frame '" + robot.planningFrame() + "'" +
+         reason;
 }
 
 void dropUnknown(const Snapshot& now, SceneChange& change)

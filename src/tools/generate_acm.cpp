@@ -113,11 +113,12 @@ void printChanges(const RobotModel& robot, const GeneratedMatrix& matrix, bool d
 
 void printWarningsOf(const RobotModel& robot, const GeneratedMatrix& matrix)
 {
+  if (!matrix.colliding_in_default_state.empty())
+    std::cerr << "warning: these pairs collide in the default state, but not in many random states, so they stay "
+                 "checked. For pairs that may collide, add their lines to the SRDF:\n";
   for (const auto& [first, second] : matrix.colliding_in_default_state)
-    std::cerr << "warning: in the default state, '" << robot.links()[static_cast<std::size_t>(first)].name << "' and '"
-              << robot.links()[static_cast<std::size_t>(second)].name
-              << "' collide, but in many random states they do not; so this pair stays checked. If it may collide, add "
-                 "a disable_collisions entry with a reason of your own\n";
+    std::cerr << "  <disable_collisions link1=\"" << robot.links()[static_cast<std::size_t>(first)].name
+              << "\" link2=\"" << robot.links()[static_cast<std::size_t>(second)].name << "\" reason=\"User\"/>\n";
   for (const DisabledPair& pair : matrix.disabled)
     if (pair.free_share > 0.0 && (pair.reason == DisabledReason::Default || pair.reason == DisabledReason::Always))
       std::cerr << "warning: '" << robot.links()[static_cast<std::size_t>(pair.first)].name << "' and '"

@@ -63,9 +63,10 @@ TEST(Srdf, UnknownLinksInCollisionEntriesAreWarnings)
   EXPECT_TRUE(robot->srdfCollisions().disabled.empty());
   EXPECT_TRUE(robot->srdfCollisions().enabled.empty());
   EXPECT_TRUE(robot->srdfCollisions().disabled_by_default.empty());
-  ASSERT_EQ(warnings.size(), 6u);
+  ASSERT_EQ(warnings.size(), 5u);
   for (const char* text :
-       {"test.srdf:2: link 'x'", "test.srdf:3: link 'y'", "test.srdf:4: link 'z'", "test.srdf:5: link 'w'",
+       {"test.srdf:2: this and 1 more disable_collisions are ignored, because the robot does not have x, y",
+        "test.srdf:4: the robot does not have z", "test.srdf:5: link 'w'",
         "test.srdf:6: link 'hand' is paired with itself", "test.srdf:7: passive joint 'v'"})
   {
     const auto mentions = [&](const std::string& warning) { return warning.find(text) != std::string::npos; };
@@ -314,6 +315,21 @@ TEST(SrdfStates, WithFaultsGiveWarnings)
       "test.srdf:4: state 'b': joint 'arm_1' needs 1 finite numbers, not '0.5 1'; the entry is ignored",
       "test.srdf:5: state 'b': joint 'arm_2' needs 1 finite numbers, not '0.5x'; the entry is ignored"};
   EXPECT_EQ(expected, warnings);
+}
+
+TEST(Srdf, OfAnotherRobotIsAnError)
+{
+  RobotModelOptions options;
+  options.srdf_name = "test.srdf";
+  EXPECT_EQ(
+      "test.srdf:1: the SRDF is for robot 'other', but the URDF is of robot 'arm', which has none of the links in the "
+      "disable_collisions entries; give the SRDF of this robot",
+      errorOf(
+          [&]
+          {
+            RobotModel::fromXml("<robot name='arm'>" + armUrdf() + "</robot>",
+                                "<robot name='other'><disable_collisions link1='a' link2='b'/></robot>", options);
+          }));
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

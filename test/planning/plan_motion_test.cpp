@@ -335,6 +335,25 @@ TEST_F(Turning, IsRefusedAtAnglesOfMoreTurnsThanDoublesDistinguish)
   EXPECT_EQ(plan(9e5, 9e5 + 0.1).status, PlanningStatus::Solved);
 }
 
+TEST_F(Turning, IsRefusedToAGoalThatMovesAVariableOutsideTheGroup)
+{
+  put(2.0);
+  PlanningQuery wanted = query({0.5, 0.0}, {{0.5, 1.0}, {0.6, 1.0}});
+  wanted.group = "round";
+  try
+  {
+    planMotion(scene_, checker_, wanted, Factory<BatchRrtConnect>());
+    FAIL() << "planned";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_STREQ(
+        error.what(),
+        "goal 1: lift is 0.6 and at the start 0.5, but group 'round' does not plan for it; give it the value of "
+        "the start");
+  }
+}
+
 TEST_F(Turning, IsRefusedWhereAnotherJointIsBeyondItsLimits)
 {
   put(2.0);

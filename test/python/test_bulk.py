@@ -312,6 +312,14 @@ class Plans(Folder):
         self.assert_error("no group 'legs'", *options, "--group", "legs")
         np.savez(self.folder / "problems.npz", start=np.zeros((3, 7)))
         self.assert_error("not an .npz file with the arrays start and goal", *options, "--group", "arm")
+        goal = np.zeros((3, 7))
+        goal[1, 2] = np.nan
+        np.savez(self.folder / "problems.npz", start=np.zeros((3, 7)), goal=goal)
+        self.assert_error("the array goal has values that are not finite", *options, "--group", "arm")
+        goal[1] = 0.01
+        np.savez(self.folder / "problems.npz", start=np.zeros((3, 7)), goal=goal)
+        self.assert_error("problem 1: grip differs between start and goal, but group 'arm' does not plan for it",
+                          *options, "--group", "arm")
 
 
 class Errors(Folder):

@@ -39,6 +39,26 @@ class Planning(Case):
         self.assert_one_line(gps.Error, "^goals: the SRDF has no state 'nose'; its states: arm/ready, arm/extended",
                              gps.plan_motion, checker, "arm", "ready", ["extended", "nose"])
 
+    def test_a_goal_moves_only_the_variables_of_the_group(self):
+        robot = gps.RobotModel.from_xml(
+            '<robot name="lift"><link name="foot"/><link name="mast"/><link name="arm"/>'
+            '<joint name="up" type="prismatic"><parent link="foot"/><child link="mast"/><axis xyz="0 0 1"/>'
+            '<limit lower="0" upper="1" effort="1" velocity="1"/></joint>'
+            '<joint name="turn" type="revolute"><parent link="mast"/><child link="arm"/><axis xyz="0 0 1"/>'
+            '<limit lower="-2" upper="2" effort="1" velocity="1"/></joint></robot>',
+            '<robot name="lift"><group name="mast"><joint name="up"/></group><group name="arm"><joint name="turn"/></group>'
+            '<group name="all"><joint name="up"/><joint name="turn"/></group>'
+            '<group_state name="raised" group="mast"><joint name="up" value="1"/></group_state>'
+            '<group_state name="away" group="all"><joint name="up" value="0.5"/><joint name="turn" value="1.5"/></group_state>'
+            '</robot>')
+        checker = gps.StateChecker(gps.PlanningScene(robot), device="cpu")
+        result = gps.plan_motion(checker, "arm", [0.1, 0.0], "away")
+        np.testing.assert_array_equal([0.1, 1.5], result.waypoints[-1])
+        self.assert_one_line(gps.Error, "^goals: the state 'raised' of the SRDF has no variable of the group 'arm'$",
+                             gps.plan_motion, checker, "arm", [0.1, 0.0], ["away", "raised"])
+        self.assert_one_line(gps.Error, "^goal 0: up is 1 and at the start 0.1, but group 'arm' does not plan for it",
+                             gps.plan_motion, checker, "arm", [0.1, 0.0], [1.0, 0.5])
+
     def test_a_seed_repeats_a_path(self):
         checker = gps.StateChecker(arm_scene(), device="cpu")
         start, goal = np.array([[0.7, 0.6, 0.6, 0, 0.6, 0, 0.03], [2.5, 0.6, 0.6, 0, 0.6, 0, 0.03]])

@@ -160,6 +160,12 @@ TEST_F(Store, TheVirtualJointStandsAtTheOriginUntilItIsSet)
     const std::vector<int> floor = virtualVariables(robot);
     EXPECT_NE(on_floor.snapshot().assumedBase({}).find("is assumed at the origin of frame"), std::string::npos);
     EXPECT_EQ(on_floor.snapshot().assumedBase(floor), "") << "the request gives it";
+    const std::string but_x = on_floor.snapshot().assumedBase({floor.front()});
+    EXPECT_NE(but_x.find("not set; they are assumed: "), std::string::npos) << but_x;
+    for (const int variable : floor)
+      EXPECT_EQ(but_x.find(robot.variables()[static_cast<std::size_t>(variable)].name + " = ") == std::string::npos,
+                variable == floor.front())
+          << but_x;
     std::map<std::string, double> received;
     for (const int variable : floor)
       received[robot.variables()[static_cast<std::size_t>(variable)].name] =

@@ -85,7 +85,10 @@ TEST_F(GenerateAcm, DecidesEachPairForTheRightReason)
   EXPECT_EQ("Always", reason("block-cover"));
   EXPECT_EQ("Default", reason("block-sleeve"));
   EXPECT_EQ("checked", reason("block-core")) << "a real collision, which MoveIt's Setup Assistant disables";
-  EXPECT_NE(std::string::npos, output.err.find("in the default state, 'block' and 'core' collide, but in many random"))
+  EXPECT_NE(std::string::npos,
+            output.err.find("collide in the default state, but not in many random states, so they stay checked. For "
+                            "pairs that may collide, add their lines to the SRDF:\n"
+                            "  <disable_collisions link1=\"block\" link2=\"core\" reason=\"User\"/>\n"))
       << output.err;
   EXPECT_EQ("Never", reason("block-spare"));
   EXPECT_EQ("Never", reason("mount-cover"));

@@ -18,7 +18,7 @@
 namespace gpu_planning_scene::core
 {
 /// A request for a motion. Each row has one value per variable of the robot, in radians and metres. Variables that are
-/// not in the group keep their values from the start.
+/// not in the group keep their values from the start, and goals must have the same values for them.
 struct PlanningQuery
 {
   std::string group;
@@ -69,7 +69,8 @@ struct PlanningResult
 /// is not verified. `stop` is called from time to time; when it returns true, planning ends early, as soon as the
 /// planner reacts. Thread-safe if each call has a checker of its own. Throws Error for an unknown group, parameter or
 /// projection joint; for a row with a wrong length or a value that is not finite; for an angle of the start or a
-/// goal beyond 1e6 rad (continuous and planar joints); without a goal; and for times beyond their limits.
+/// goal beyond 1e6 rad (continuous and planar joints); for a goal that moves a variable outside the group; without a
+/// goal; and for times beyond their limits.
 /// Errors of GroupStateSpace and MotionChecker, and exceptions of the planner, pass through.
 PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,

@@ -53,14 +53,14 @@ class ProblemSlice:
 
 
 class ProblemFile:
-    """An .npz file with the arrays `start` and `goal`, shape (n, variables)."""
+    """An .npz file with the arrays `start` and `goal`, shape (n, variables). They differ in variables of the group."""
 
     def __init__(self, path: gps.Path, robot: gps.RobotModel, seed: int, options: PlanOptions):
         self._file = UnchangedFile(path)
         self._seed = seed
         self._options = options
         width = len(robot.variables)
-        robot.group(options.group)
+        outside = [i for i in range(width) if i not in robot.group(options.group).variables]
         try:
             with np.load(path, allow_pickle=False) as arrays:
                 self._starts, self._goals = (np.asarray(arrays[name], dtype=float) for name in ("start", "goal"))
@@ -70,6 +70,13 @@ class ProblemFile:
             if rows.ndim != 2 or rows.shape != (len(self._starts), width):
                 raise gps.Error(f"{pathlib.Path(path)}: the array {name} has shape {rows.shape}; start and goal need "
                                 f"the same shape (n, {width}): {', '.join(robot.variable_names)}")
+            if not np.isfinite(rows).all():
+                raise gps.Error(f"{pathlib.Path(path)}: the array {name} has values that are not finite")
+        moved = np.argwhere(self._starts[:, outside] != self._goals[:, outside])
+        if len(moved):
+            row, variable = moved[0][0], outside[moved[0][1]]
+            raise gps.Error(f"{pathlib.Path(path)}: problem {row}: {robot.variable_names[variable]} differs between "
+                            f"start and goal, but group '{options.group}' does not plan for it; give both the same value")
         self.count = len(self._starts)
 
     def identity(self) -> Dict[str, Any]:

@@ -75,8 +75,10 @@ std::string remedyOfRigid(const PlanningScene& scene, const std::vector<BodyPair
   for (const BodyPair& pair : pairs)
     if (isRigid(scene, pair))
     {
-      const std::string names = scene.bodyName(pair[0]) + ", " + scene.bodyName(pair[1]);
-      return ", or, because no joint moves them apart, allow " + names + ": allowed_collisions: [[" + names +
+      const std::string& first = scene.bodyName(pair[0]);
+      const std::string& second = scene.bodyName(pair[1]);
+      return "; no joint moves " + first + " and " + second +
+             " apart, so this pair may also be allowed: allowed_collisions: [[" + first + ", " + second +
              "]] in a scene file";
     }
   return "";

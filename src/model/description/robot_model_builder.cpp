@@ -105,8 +105,14 @@ class RobotModelBuilder
   {
     if (srdf.robot_name != model_->name_)
     {
-      warnings_.push_back(srdf.where + ": the SRDF is for robot '" + srdf.robot_name + "', but the URDF is of robot '" +
-                          model_->name_ + "'");
+      const std::string other = srdf.where + ": the SRDF is for robot '" + srdf.robot_name +
+                                "', but the URDF is of robot '" + model_->name_ + "'";
+      if (!srdf.disabled.empty() &&
+          std::none_of(srdf.disabled.begin(), srdf.disabled.end(),
+                       [this](const SrdfPair& pair) { return hasLink(pair.link_1) || hasLink(pair.link_2); }))
+        throw Error(other +
+                    ", which has none of the links in the disable_collisions entries; give the SRDF of this robot");
+      warnings_.push_back(other);
     }
     for (const SrdfName& passive : srdf.passive_joints)
     {
@@ -123,14 +129,13 @@ class RobotModelBuilder
         warnings_.push_back(property.where + ": joint '" + property.joint + "' has the unknown property '" +
                             property.property + "', which is not used (the one for its motion is motion_model)");
     SrdfCollisions& collisions = model_->srdf_collisions_;
-    collisions.disabled = resolvePairs(srdf.disabled);
-    collisions.enabled = resolvePairs(srdf.enabled);
+    collisions.disabled = resolvePairs(srdf.disabled, "disable_collisions");
+    collisions.enabled = resolvePairs(srdf.enabled, "enable_collisions");
     for (const SrdfName& link : srdf.disabled_by_default)
-    {
-      const int index = knownLink(link.name, link.where);
-      if (index >= 0)
-        collisions.disabled_by_default.push_back(index);
-    }
+      if (hasLink(link.name))
+        collisions.disabled_by_default.push_back(model_->linkIndex(link.name));
+      else
+        warnings_.push_back(link.where + ": link '" + link.name + "' is not in the robot, the entry is ignored");
     model_->groups_ = resolveGroups(srdf.groups, *model_, ignored_joints_, warnings_);
     model_->named_states_ = resolveNamedStates(srdf.named_states, *model_, ignored_joints_, warnings_);
   }
@@ -170,26 +175,34 @@ class RobotModelBuilder
                         ". To save their checks, run generate_acm --srdf OLD --out NEW with these limits (--planning)");
   }
 
-  int knownLink(const std::string& link, const std::string& where)
-  {
-    const int index = model_->linkIndex(link);
-    if (index < 0)
-      warnings_.push_back(where + ": link '" + link + "' is not in the robot, the entry is ignored");
-    return index;
-  }
+  bool hasLink(const std::string& link) const { return model_->linkIndex(link) >= 0; }
 
-  std::vector<LinkPair> resolvePairs(const std::vector<SrdfPair>& pairs)
+  /// The pairs of links that the robot has. One warning names the links that it lacks.
+  std::vector<LinkPair> resolvePairs(const std::vector<SrdfPair>& pairs, const std::string& element)
   {
     std::vector<LinkPair> result;
+    std::vector<std::string> ignored;  // where
+    std::vector<std::string> missing;
     for (const SrdfPair& pair : pairs)
     {
-      const int link_1 = knownLink(pair.link_1, pair.where);
-      const int link_2 = link_1 < 0 ? -1 : knownLink(pair.link_2, pair.where);
-      if (link_1 >= 0 && link_1 == link_2)
+      for (const std::string& link : {pair.link_1, pair.link_2})
+        if (!hasLink(link) && !contains(missing, link))
+          missing.push_back(link);
+      const int link_1 = model_->linkIndex(pair.link_1);
+      const int link_2 = model_->linkIndex(pair.link_2);
+      if (link_1 < 0 || link_2 < 0)
+        ignored.push_back(pair.where);
+      else if (link_1 == link_2)
         warnings_.push_back(pair.where + ": link '" + pair.link_1 + "' is paired with itself, the entry is ignored");
-      else if (link_1 >= 0 && link_2 >= 0)
+      else
         result.push_back({std::min(link_1, link_2), std::max(link_1, link_2), pair.reason});
     }
+    if (ignored.size() == 1)
+      warnings_.push_back(ignored.front() + ": the robot does not have " + nameList(missing) +
+                          "; the entry is ignored");
+    else if (!ignored.empty())
+      warnings_.push_back(ignored.front() + ": this and " + std::to_string(ignored.size() - 1) + " more " + element +
+                          " are ignored, because the robot does not have " + nameList(missing));
     return result;
   }
 
