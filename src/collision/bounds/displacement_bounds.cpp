@@ -4,144 +4,83 @@
 #include <limits>
 
 #include "collision/bounds/displacement_rounding.h"
-#include "collision/bounds/reach.h"
+#include "collision/bounds/state_box.h"
 
-// Each robot instance gets one lever for each joint between its link and the root; a self pair gets the levers of the
-// joints that move only one of the two (Schwarzer, Saha, Latombe 2002).
+// A margin of an instance sums up the joints between its link and the root; that of a self pair the joints that move
+// only one of the two (Schwarzer, Saha, Latombe 2002).
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-
-/// The largest distance of a region from the joint's axis. The region is in the frame of the joint's child link.
-double armOf(const Joint& joint, const Region& region)
+/// The number of steps of a chain below the first link that the other chain has too. The joints above it move both.
+std::size_t ownSteps(const LeverChain& chain, const LeverChain& other)
 {
-  double arm = 0.0;
-  for (const Ball& ball : region.balls)
+  const auto is_shared = [&other](const LeverChain::Step& step)
   {
-    // A floating joint may turn about any axis through the origin.
-    const Eigen::Vector3d across =
-        joint.type == JointType::Floating ? ball.center : ball.center - joint.axis.dot(ball.center) * joint.axis;
-    arm = std::max(arm, across.norm() + ball.radius);
-  }
-  return arm;
-}
-
-JointLevers::Chain chainOf(const RobotModel& robot, const Reach& reach, const Shape& shape,
-                           const ShapeInstance& instance)
-{
-  const SweptBody body = reach.sweep({PlacedShape{shape, Eigen::Isometry3d::Identity()}}, instance.pose, instance.link);
-  JointLevers::Chain chain;
-  int link = instance.link;
-  for (std::size_t above = 0; link >= 0; ++above)
-  {
-    const int number = robot.links()[static_cast<std::size_t>(link)].parent_joint;
-    if (number < 0)
-    {
-      chain.steps.push_back({link, std::nullopt});
-      break;
-    }
-    const Joint& joint = robot.joints()[static_cast<std::size_t>(number)];
-    std::optional<JointLever> lever;
-    if (joint.type != JointType::Fixed)
-      lever = {number, 1.0,
-               above < body.region_by_level.size() ? armOf(joint, body.region_by_level[above]) : kUnbounded};
-    chain.steps.push_back({link, lever});
-    link = joint.parent_link;
-  }
-  return chain;
+    return std::any_of(other.steps.begin(), other.steps.end(),
+                       [&step](const LeverChain::Step& theirs) { return theirs.link == step.link; });
+  };
+  return static_cast<std::size_t>(std::find_if(chain.steps.begin(), chain.steps.end(), is_shared) -
+                                  chain.steps.begin());
 }
 }  // namespace
 
-std::vector<std::shared_ptr<const JointLevers::Chain>> JointLevers::of(const std::shared_ptr<const RobotModel>& robot,
-                                                                       const CollisionProblem& problem)
-{
-  if (robot != robot_)
-    known_.clear();
-  robot_ = robot;
-  std::optional<Reach> reach;
-  std::vector<Known> used;
-  std::vector<std::shared_ptr<const Chain>> chains;
-  for (const ShapeInstance& instance : problem.robot)
-  {
-    const Shape& shape = problem.shapes[instance.tree];
-    const auto is_it = [&](const Known& known)
-    {
-      return known.link == instance.link && known.pose.matrix() == instance.pose.matrix() &&
-             sameShape(known.shape, shape);
-    };
-    const auto found = std::find_if(known_.begin(), known_.end(), is_it);
-    if (found != known_.end())
-      used.push_back(*found);
-    else
-    {
-      if (!reach)
-        reach.emplace(*robot);
-      used.push_back({shape, instance.pose, instance.link,
-                      std::make_shared<const Chain>(chainOf(*robot, *reach, shape, instance))});
-    }
-    chains.push_back(used.back().chain);
-  }
-  known_ = std::move(used);
-  return chains;
-}
-
 DisplacementBounds::DisplacementBounds(const std::shared_ptr<const RobotModel>& robot, const CollisionProblem& problem,
                                        JointLevers& levers)
-  : joints_(robot->joints().size()), variables_(robot->variables().size()), ranges_(provenRanges(*robot))
+  : robot_(robot), ranges_(provenRanges(*robot)), chains_(levers.of(robot, problem))
 {
-  const std::vector<std::shared_ptr<const JointLevers::Chain>> chains = levers.of(robot, problem);
-  const auto add = [&](const JointLevers::Chain& chain, const JointLevers::Chain& other)
+  std::size_t sums = 0;
+  for (std::size_t i = 0; i < chains_.size(); ++i)
   {
-    for (const auto& [link, lever] : chain.steps)
-    {
-      if (std::any_of(other.steps.begin(), other.steps.end(),
-                      [link = link](const JointLevers::Chain::Step& theirs) { return theirs.link == link; }))
-        break;  // joints further up move both instances
-      if (lever)
-        levers_.push_back(*lever);
-    }
-  };
-  first_.push_back(0);
-  for (const auto& chain : chains)
-  {
-    add(*chain, {});
-    first_.push_back(levers_.size());
+    moving_.push_back({i, chains_[i]->steps.size(), i, 0});
+    first_.push_back(sums);
+    sums += chains_[i]->steps.size() + 1;
   }
   for (const auto& [a, b] : problem.self_pairs)
-  {
-    add(*chains[a], *chains[b]);
-    add(*chains[b], *chains[a]);
-    first_.push_back(levers_.size());
-  }
+    moving_.push_back({a, ownSteps(*chains_[a], *chains_[b]), b, ownSteps(*chains_[b], *chains_[a])});
+  first_.push_back(sums);
 }
 
 Margins DisplacementBounds::margins(const JointNeighbourhood& around, const double* states, std::size_t count) const
 {
-  const std::size_t rows = joints_ == 0 ? 0 : around.travel.size() / joints_;
+  const std::size_t joints = robot_->joints().size();
+  const std::size_t variables = robot_->variables().size();
+  const std::size_t rows = joints == 0 ? 0 : around.travel.size() / joints;
   Margins result{this->count(), std::vector<double>(rows * this->count()), around.rows, {}};
-  for (std::size_t row = 0; row < rows; ++row)
-    margins(around.travel.data() + row * joints_, result.values.data() + row * this->count());
-  result.within.reserve(count);
+  std::vector<double> lower(rows * variables, std::numeric_limits<double>::infinity());
+  std::vector<double> upper(rows * variables, -std::numeric_limits<double>::infinity());
+  std::vector<const double*> states_of_rows(rows);
   for (std::size_t i = 0; i < count; ++i)
-    result.within.push_back(withinRanges(ranges_, states + i * variables_) ? 1 : 0);
-  return result;
-}
-
-void DisplacementBounds::margins(const JointTravel* travel, double* margins) const
-{
-  for (std::size_t i = 0; i + 1 < first_.size(); ++i)
   {
-    double sum = 0.0;
-    for (std::size_t k = first_[i]; k < first_[i + 1]; ++k)
+    const double* const state = states + i * variables;
+    const std::size_t row = around.rows[i];
+    for (std::size_t k = 0; k < variables; ++k)
     {
-      const JointTravel& joint = travel[levers_[k].joint];
-      sum += levers_[k].per_metre * joint.length;
-      if (joint.angle != 0.0)
-        sum += levers_[k].per_radian * joint.angle;
+      lower[row * variables + k] = std::min(lower[row * variables + k], state[k]);
+      upper[row * variables + k] = std::max(upper[row * variables + k], state[k]);
     }
-    margins[i] = sum == 0.0 ? 0.0 : std::min(kLargestMargin, withRounding(sum));
+    states_of_rows[row] = state;
+    result.within.push_back(withinRanges(ranges_, state) ? 1 : 0);
   }
+  StateBox box(*robot_);
+  std::vector<double> sums(first_.back());  // of the first 0, 1, 2, ... steps of each chain
+  for (std::size_t row = 0; row < rows; ++row)
+  {
+    if (states_of_rows[row] == nullptr)
+      continue;
+    box.set(lower.data() + row * variables, upper.data() + row * variables, states_of_rows[row],
+            around.travel.data() + row * joints);
+    for (std::size_t i = 0; i < chains_.size(); ++i)
+      box.sumSteps(*chains_[i], sums.data() + first_[i]);
+    double* const margins = result.values.data() + row * this->count();
+    for (std::size_t i = 0; i < moving_.size(); ++i)
+    {
+      const Moving& moving = moving_[i];
+      const double sum =
+          sums[first_[moving.chain] + moving.steps] + sums[first_[moving.other_chain] + moving.other_steps];
+      margins[i] = sum == 0.0 ? 0.0 : std::min(kLargestMargin, withRounding(sum));
+    }
+  }
+  return result;
 }
 }  // namespace gpu_planning_scene::core

@@ -3,11 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include <Eigen/Geometry>
-
+#include "collision/bounds/joint_levers.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/robot_model.h"
 #include "gpu_planning_scene/state_checker.h"
@@ -28,51 +26,11 @@ struct Margins
   const double* of(std::size_t state) const { return values.data() + rows[state] * width; }
 };
 
-/// How far a joint moves the points of a body, at most.
-struct JointLever
-{
-  int joint;
-  double per_metre;   ///< metres per metre of the joint's travel
-  double per_radian;  ///< metres per radian of the joint's travel
-};
-
-/// The levers of a robot's instances. Computing them takes milliseconds, so they are kept for the next scene. One
-/// caller at a time.
-class JointLevers
-{
- public:
-  /// The joints between the root and an instance.
-  struct Chain
-  {
-    struct Step
-    {
-      int link;                         // the child link of the joint
-      std::optional<JointLever> lever;  // empty: the joint does not move
-    };
-    std::vector<Step> steps;  // from the instance's link up to the root
-  };
-
-  /// The chains of the problem's robot instances.
-  std::vector<std::shared_ptr<const Chain>> of(const std::shared_ptr<const RobotModel>& robot,
-                                               const CollisionProblem& problem);
-
- private:
-  struct Known
-  {
-    Shape shape;
-    Eigen::Isometry3d pose;
-    int link;
-    std::shared_ptr<const Chain> chain;
-  };
-
-  std::shared_ptr<const RobotModel> robot_;
-  std::vector<Known> known_;  // of the latest problem
-};
-
 /// Upper bounds of the displacement of a robot's points while each joint moves by at most a given travel within its
-/// limits. The bound is a sum over the joints: the joint's travel times the largest possible distance of the body from
-/// the joint's axis (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths"). Reach provides these
-/// distances. Immutable.
+/// limits. The bound is a sum over the joints: the joint's travel times the largest distance of the body from the
+/// joint's axis (Schwarzer, Saha, Latombe 2002, "Exact collision checking of robot paths"). Two bounds of this distance
+/// are known, and the smaller one is taken: that of LeverChain, which holds anywhere within the limits, and that of
+/// StateBox, which is smaller if the arm is bent. Immutable.
 class DisplacementBounds
 {
  public:
@@ -81,21 +39,29 @@ class DisplacementBounds
                      JointLevers& levers);
 
   /// The number of margins: one for each robot instance, then one for each self pair.
-  std::size_t count() const { return first_.size() - 1; }
+  std::size_t count() const { return moving_.size(); }
 
   /// The margins of `count` states (rows of the robot's variables), in metres. For a robot instance: the largest
   /// displacement of its points in the planning frame. For a self pair: the largest displacement of the points of one
   /// instance relative to the other. The margins include rounding. A margin is kLargestMargin if there is no bound, and
-  /// 0 if nothing moves. `around` must be valid, see validateNeighbourhood.
+  /// 0 if nothing moves. States with the same row of `around` get the same margins, which are smaller if these states
+  /// are near each other. `around` must be valid, see validateNeighbourhood.
   Margins margins(const JointNeighbourhood& around, const double* states, std::size_t count) const;
 
  private:
-  void margins(const JointTravel* travel, double* margins) const;
+  /// The steps that move an instance, or one of two instances relative to the other: the first ones of their chains.
+  struct Moving
+  {
+    std::size_t chain;
+    std::size_t steps;
+    std::size_t other_chain;
+    std::size_t other_steps;
+  };
 
-  std::size_t joints_;
-  std::size_t variables_;
+  std::shared_ptr<const RobotModel> robot_;
   std::vector<VariableRange> ranges_;
-  std::vector<JointLever> levers_;
-  std::vector<std::size_t> first_;  // index of the first lever of each margin; the last entry is the number of levers
+  std::vector<std::shared_ptr<const LeverChain>> chains_;
+  std::vector<std::size_t> first_;  // of each chain: the index of its first sum; a chain has one sum more than steps
+  std::vector<Moving> moving_;      // of each margin
 };
 }  // namespace gpu_planning_scene::core

@@ -82,7 +82,7 @@ void cluster(Ball* begin, Ball* end, std::size_t max_parts, std::vector<Ball>& r
 Region regionOf(std::vector<Ball> balls)
 {
   Region region;
-  cluster(balls.data(), balls.data() + balls.size(), kMaxBalls, region.balls);
+  region.balls = clustered(std::move(balls), kMaxBalls);
   region.enclosing = enclosing(region.balls.data(), region.balls.data() + region.balls.size());
   return region;
 }
@@ -171,6 +171,13 @@ bool isBound(const Region& region)
   return region.enclosing.center.norm() + region.enclosing.radius <= kFarthest;
 }
 }  // namespace
+
+std::vector<Ball> clustered(std::vector<Ball> balls, std::size_t most)
+{
+  std::vector<Ball> result;
+  cluster(balls.data(), balls.data() + balls.size(), most, result);
+  return result;
+}
 
 PlacedBox::PlacedBox(const Isometry3d& pose_of_center, const Vector3d& half_lengths)
   : pose(pose_of_center),

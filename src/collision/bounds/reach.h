@@ -17,6 +17,9 @@ struct Ball
   double radius;  ///< metres
 };
 
+/// At most `most` balls that together contain all of `balls`.
+std::vector<Ball> clustered(std::vector<Ball> balls, std::size_t most);
+
 /// Balls that together contain a body for all positions of the joints, and one ball that contains them all.
 struct Region
 {

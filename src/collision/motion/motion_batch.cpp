@@ -3,8 +3,9 @@
 #include <utility>
 
 // Samples are checked in bisection order, so that collisions are found early. Under the rule Bound, a sample proves a
-// segment free if the distance of each pair exceeds its required distance by more than its joint displacement bound.
-// Other segments are halved (adaptive bisection of Schwarzer, Saha, Latombe 2002 and 2005).
+// segment free, with the other samples in it, if the distance of each pair exceeds its required distance by more than
+// its joint displacement bound. Other segments are halved (adaptive bisection of Schwarzer, Saha, Latombe 2002 and
+// 2005).
 namespace gpu_planning_scene::core
 {
 namespace
@@ -20,6 +21,13 @@ constexpr std::size_t kGrowth = 4;
 // The smallest neighbourhood of a sample. If even this neighbourhood is not proven free, the motion is rejected at the
 // sample.
 constexpr double kLeastTravel = 1e-7;  // radians and metres
+
+// Neighbouring intervals that share displacement bounds. More would make the bounds wider, fewer take more time.
+constexpr std::size_t kSharedBounds = 8;
+
+// Under the rule Bound, one sample in so many is checked before the segments are proven free. Most motions are free,
+// and a proof includes the samples in its segment.
+constexpr std::size_t kBeforeProof = 8;
 
 /// The numbers n and 0, then the middles of the segments in between, level by level.
 std::vector<std::size_t> bisectionOrder(std::size_t n)
@@ -98,6 +106,7 @@ void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with
     states.resize(count * width);
     JointNeighbourhood around;
     std::size_t last_motion = motions_.size();
+    std::size_t sharing = 0;  // intervals
     for (std::size_t i = 0; i < count; ++i)
     {
       const Interval& interval = intervals[begin + i];
@@ -106,9 +115,14 @@ void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with
       ++motion.samples;
       if (!with_margins)
         continue;
-      if (interval.motion != last_motion)  // a motion's intervals are consecutive and equally wide
+      // A motion's intervals are consecutive and equally wide.
+      if (interval.motion != last_motion || sharing == kSharedBounds)
+      {
+        sharing = 0;
         for (const JointTravel& joint : motion.travel)
           around.travel.push_back({joint.length * interval.half, joint.angle * interval.half});
+      }
+      ++sharing;
       last_motion = interval.motion;
       around.rows.push_back(static_cast<std::uint32_t>(around.travel.size() / motion.travel.size() - 1));
     }
@@ -122,6 +136,7 @@ void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with
 
 void MotionBatch::checkSamples()
 {
+  const bool all = options_.rule == MotionRule::Samples || last_valid_;
   std::size_t largest = 0;
   for (const Motion& motion : motions_)
     largest = std::max(largest, motion.order.size());
@@ -132,7 +147,8 @@ void MotionBatch::checkSamples()
     for (std::size_t i = 0; i < motions_.size(); ++i)
     {
       const Motion& motion = motions_[i];
-      for (std::size_t k = begin; motion.valid && k < std::min(end, motion.order.size()); ++k)
+      const std::size_t last = all ? motion.order.size() : kFirstSamples + motion.order.size() / kBeforeProof;
+      for (std::size_t k = begin; motion.valid && k < std::min({end, last, motion.order.size()}); ++k)
         intervals.push_back({i, motion.fraction(motion.order[k]), 1.0 / static_cast<double>(motion.segments)});
     }
     checkMiddles(intervals, false,

@@ -16,8 +16,8 @@
 
 namespace gpu_planning_scene::core
 {
-/// The motions of one call of MotionChecker::check. Their samples are checked first. If the rule is Bound, the segments
-/// between the samples are then proven to be free.
+/// The motions of one call of MotionChecker::check. Their samples are checked first. If the rule is Bound, only some
+/// are checked (all for the query LastValid), and the segments between the samples are then proven to be free.
 class MotionBatch
 {
  public:

@@ -90,6 +90,30 @@ TEST_F(Displacement, OfAStretchedArmIsTheSumOfWhatItsJointsMoveTheTip)
   EXPECT_FALSE(isFreeAround(sceneWith(robot, tip, 0.99 * kTravel * 2.0), stiff));
 }
 
+/// The shoulder moves the tip of a bent arm less than that of a stretched one.
+TEST_F(Displacement, OfABentArmIsSmallerUnlessAStretchedOneSharesItsRow)
+{
+  const auto robot = arm();
+  const double bent = 1.0;
+  const Eigen::Vector3d tip(0.5 + 0.5 * std::cos(bent), 0.5 * std::sin(bent), 0.0);
+  std::vector<double> states = robot->defaultState();
+  states[1] = bent;
+  const std::vector<double> stretched = robot->defaultState();
+  states.insert(states.end(), stretched.begin(), stretched.end());
+  JointNeighbourhood around;
+  around.travel.resize(2 * robot->joints().size());
+  around.travel[0].angle = around.travel[robot->joints().size()].angle = kTravel;
+  const auto freeWith = [&](double gap, std::uint32_t row_of_stretched)
+  {
+    around.rows = {0, row_of_stretched};
+    return CpuChecker(sceneWith(robot, tip, gap)).check(states.data(), 2, "", &around).valid[0] != 0;
+  };
+  EXPECT_FALSE(freeWith(0.98 * kTravel * tip.norm(), 1));
+  EXPECT_TRUE(freeWith(kTravel * (tip.norm() + 3.0 * kBall), 1));
+  EXPECT_LT(tip.norm() + 3.0 * kBall, 1.0);
+  EXPECT_FALSE(freeWith(kTravel * (tip.norm() + 3.0 * kBall), 0));
+}
+
 TEST_F(Displacement, CountsTheTravelOfFollowers)
 {
   const auto robot = arm(true);

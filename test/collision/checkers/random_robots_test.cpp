@@ -345,21 +345,22 @@ double expectWithinMargins(const PlanningScene& scene, const CollisionProblem& p
   constexpr int kParts = 8;
   constexpr double kRounding = 1e-12;  // metres: intermediate states have rounding errors even if a joint does not move
   const RobotModel& robot = *scene.robot;
-  JointNeighbourhood around{jointTravel(robot, start.data(), end.data()), {0, 1}};
+  JointNeighbourhood around{jointTravel(robot, start.data(), end.data()), {0}};
   for (std::size_t i = 0; i < robot.joints().size(); ++i)
     around.travel.push_back({around.travel[i].length / kParts, around.travel[i].angle / kParts});
-  std::vector<double> states = start;
-  states.insert(states.end(), end.begin(), end.end());
-  const Margins margins = displacements.margins(around, states.data(), 2);
-  EXPECT_EQ(margins.within, (std::vector<std::uint8_t>{1, 1}));
 
   std::vector<PlacedPoints> placed;
+  std::vector<double> states = start;  // then the states between the parts, which share a row
   std::vector<double> state(start.size());
   for (int part = 0; part <= kParts; ++part)
   {
     interpolate(robot, start.data(), end.data(), static_cast<double>(part) / kParts, state.data());
     placed.emplace_back(robot, problem, state.data());
+    states.insert(states.end(), state.begin(), state.end());
+    around.rows.push_back(1);
   }
+  const Margins margins = displacements.margins(around, states.data(), around.rows.size());
+  EXPECT_EQ(margins.within, std::vector<std::uint8_t>(around.rows.size(), 1));
   double fullest = 0.0;
   const auto compare = [&](std::size_t margin, const std::vector<std::uint32_t>& shapes, int viewer)
   {
