@@ -20,8 +20,8 @@ enum class MotionRule
 {
   /// All samples are free, as in MoveIt and OMPL. A thin obstacle between two samples is missed.
   Samples,
-  /// All samples are free, and the motion is proven free between them. Around every second sample lies a segment that
-  /// ends at the neighbouring samples. The proof: the clearance of the sample exceeds the displacement of every point
+  /// The motion is proven free, its samples included. Around every second sample lies a segment that ends at the
+  /// neighbouring samples. The proof: the clearance of the sample exceeds the displacement of every point
   /// of the robot within this segment.
   Bound
 };

@@ -4,11 +4,13 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <numeric>
 
 #include <pybind11/stl.h>
 
 #include "bindings/named_rows.h"
 #include "gpu_planning_scene/error.h"
+#include "model/joint_limits.h"
 #include "model/text/utf8.h"
 #include "scene/rigid_pose.h"
 
@@ -112,6 +114,14 @@ std::vector<double> rowFrom(py::handle object, const core::RobotModel& robot, co
     throw core::Error(std::string(what) + ": the shape is " + shapeText(rows.array) + "; one state is needed, (" +
                       std::to_string(robot.variables().size()) + ",)");
   return {rows.data(), rows.data() + robot.variables().size()};
+}
+
+void warnOfValuesOutsideLimits(const Rows& rows, const core::RobotModel& robot, const std::string& what)
+{
+  std::vector<int> columns(robot.variables().size());
+  std::iota(columns.begin(), columns.end(), 0);
+  if (const auto outside = core::findValueOutsideLimits(robot, columns, rows.data(), rows.count))
+    warnOf({what + ": row " + std::to_string(outside->row) + ": " + outside->text});
 }
 
 std::vector<double> numbersFrom(py::handle object, std::size_t count, const char* what)

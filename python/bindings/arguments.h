@@ -65,6 +65,10 @@ Rows rowsFrom(py::handle object, const core::RobotModel& robot, const char* what
 std::vector<double> rowFrom(py::handle object, const core::RobotModel& robot, const char* what,
                             const std::vector<double>* current = nullptr);
 
+/// Warns of values that are outside the limits of their joints, and suggests degrees where they would fit. `what`:
+/// "states", for the message.
+void warnOfValuesOutsideLimits(const Rows& rows, const core::RobotModel& robot, const std::string& what);
+
 /// `count` numbers. `what`: for the message.
 std::vector<double> numbersFrom(py::handle object, std::size_t count, const char* what);
 Eigen::Vector3d vectorFrom(py::handle object, const char* what);

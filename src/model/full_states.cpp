@@ -100,10 +100,9 @@ std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& 
   if (!missing.empty())
     throw Error(
         "no value for " + nameList(missing) +
-        "; give values for all joints (a named state takes no further values), or set the current state: with the "
-        "topic joint_states, with robot_state.joint_state in the scene file, or with ~apply_planning_scene; list "
-        "joints "
-        "that nobody measures, such as casters, as <passive_joint> in the SRDF");
+        "; give values for all joints (a named state takes no further values), or set the current state: with "
+        "robot_state.joint_state in the scene file, or, for a node, with the topic joint_states or "
+        "~apply_planning_scene; list joints that nobody measures, such as casters, as <passive_joint> in the SRDF");
 
   std::vector<double> states(count * width);
   for (std::size_t row = 0; row < count; ++row)

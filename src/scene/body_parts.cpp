@@ -19,7 +19,8 @@ std::string metres(double length)
 std::string percent(double share)
 {
   char text[32];
-  std::snprintf(text, sizeof text, "%.2g %%", 100.0 * share);
+  // Two digits of 99.5 and more would be 1e+02.
+  std::snprintf(text, sizeof text, share < 0.995 ? "%.2g %%" : "%.0f %%", 100.0 * share);
   return text;
 }
 

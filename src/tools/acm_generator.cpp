@@ -267,7 +267,7 @@ GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const Ge
     {
       builder.check(pair, share);
       if (at_default)
-        builder.matrix().colliding_in_default_state.emplace_back(pair[0], pair[1]);
+        builder.matrix().colliding_in_default_state.push_back({pair[0], pair[1], share});
       else if (hit == hits.end())
         builder.matrix().unproven.emplace_back(pair[0], pair[1]);
     }

@@ -61,7 +61,7 @@ struct GeneratedMatrix
   std::vector<DisabledPair> disabled;  ///< sorted by link indices
   /// Pairs of links that collide in the default state, but in a smaller share of the random states than
   /// GeneratorOptions::always_share. They must be checked; MoveIt's Setup Assistant disables them.
-  std::vector<std::pair<int, int>> colliding_in_default_state;
+  std::vector<CheckedLinks> colliding_in_default_state;
   /// Pairs that the robot's SRDF checks. They stay checked, although there is a reason to disable them. With
   /// GeneratorOptions::drop_checked, they are in `disabled` as well.
   std::vector<DisabledPair> checked_by_srdf;

@@ -114,11 +114,12 @@ void printChanges(const RobotModel& robot, const GeneratedMatrix& matrix, bool d
 void printWarningsOf(const RobotModel& robot, const GeneratedMatrix& matrix)
 {
   if (!matrix.colliding_in_default_state.empty())
-    std::cerr << "warning: these pairs collide in the default state, but not in many random states, so they stay "
+    std::cerr << "warning: these pairs collide in the default state, and in a part of the random states, so they stay "
                  "checked. For pairs that may collide, add their lines to the SRDF:\n";
-  for (const auto& [first, second] : matrix.colliding_in_default_state)
-    std::cerr << "  <disable_collisions link1=\"" << robot.links()[static_cast<std::size_t>(first)].name
-              << "\" link2=\"" << robot.links()[static_cast<std::size_t>(second)].name << "\" reason=\"User\"/>\n";
+  for (const CheckedLinks& pair : matrix.colliding_in_default_state)
+    std::cerr << "  <disable_collisions link1=\"" << robot.links()[static_cast<std::size_t>(pair.first)].name
+              << "\" link2=\"" << robot.links()[static_cast<std::size_t>(pair.second)].name << "\" reason=\"User\"/>  "
+              << percent(pair.colliding_share) << " of the random states\n";
   for (const DisabledPair& pair : matrix.disabled)
     if (pair.free_share > 0.0 && (pair.reason == DisabledReason::Default || pair.reason == DisabledReason::Always))
       std::cerr << "warning: '" << robot.links()[static_cast<std::size_t>(pair.first)].name << "' and '"
@@ -181,8 +182,8 @@ void run(const CommandLine& arguments)
   {
     std::cout << srdf;
   }
-  printWarningsOf(*robot, matrix);
   printChanges(*robot, matrix, generator.drop_checked);
+  printWarningsOf(*robot, matrix);
   printSummary(matrix, generator, groupNamesOf(srdf));
 }
 }  // namespace

@@ -160,6 +160,17 @@ class StateChecker(Case):
             self.assertGreaterEqual(report.pairs_outside_group, 0)
         self.assertTrue(any(checker.report(group.name).pairs_outside_group for group in scene.robot.groups))
 
+    def test_values_beyond_the_limits_get_a_warning(self):
+        scene = arm_scene()
+        checker = gps.StateChecker(scene, device="cpu")
+        states = scene.robot.random_states(3, seed=5)
+        states[1, 2] = 45.0
+        message = "row 1: joint '.*' is 45, outside its limits .*; values are in radians, and 45 degrees are 0.785398 rad$"
+        with self.assertWarnsRegex(UserWarning, "^states: " + message):
+            checker.check(states)
+        with self.assertWarnsRegex(UserWarning, "^ends: " + message):
+            gps.MotionChecker(checker, "arm").check(states[[0, 0]], states[:2])
+
     def test_the_report_counts_the_pairs(self):
         scene = gps.PlanningScene(rail())
         scene.add_object("post", gps.Sphere(0.1), [1, 0, 0])

@@ -132,6 +132,20 @@ TEST_F(ChangeObjects, RemoveTakesOneAndWithoutAnIdAll)
   change(objectChange(Operation::Remove, ""));
 }
 
+/// Clients often leave is_diff unset by mistake.
+TEST_F(ChangeObjects, AFullSceneNamesTheObjectsThatItRemoves)
+{
+  for (const char* id : {"a", "b", "c"})
+    change(objectChange(Operation::Add, id, {boxAt(0.1)}));
+  SceneChange full;
+  full.objects = {objectChange(Operation::Add, "b", {boxAt(0.2)})};
+  apply(full);
+  EXPECT_EQ(1u, scene_.objects.size());
+  EXPECT_TRUE(warned("removed because the scene's is_diff is false, which replaces the world: 'a', 'c'"));
+  apply(full);
+  EXPECT_FALSE(warned("removed"));
+}
+
 TEST_F(ChangeObjects, ChangesOfOneMessageFollowEachOther)
 {
   SceneChange many;

@@ -1,5 +1,8 @@
+#include <algorithm>
+
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
+#include "model/text/name_list.h"
 #include "scene/changes/scene_changer.h"
 
 // Objects of the world: adding, appending to, moving and removing them.
@@ -15,6 +18,23 @@ void SceneChanger::clearWorld(bool keeps_octomap, bool keeps_settings)
     if (!keeps_settings)
       forget(id);
   }
+}
+
+/// As in MoveIt, a scene whose is_diff is false replaces the world. Clients often leave is_diff unset by mistake.
+void SceneChanger::warnOfLostObjects(const SceneChange& change)
+{
+  std::vector<std::string> lost;
+  for (const std::string& id : objects_.ids())
+  {
+    const auto is_it = [&id](const ObjectChange& object) { return object.id == id; };
+    const bool is_attached = std::any_of(change.state.attached.begin(), change.state.attached.end(),
+                                         [&](const AttachedChange& attached) { return is_it(attached.object); });
+    if (!is_attached && std::none_of(change.objects.begin(), change.objects.end(), is_it))
+      lost.push_back("'" + id + "'");
+  }
+  if (!lost.empty())
+    result_.warnings.push_back("removed because the scene's is_diff is false, which replaces the world: " +
+                               nameList(lost));
 }
 
 void SceneChanger::changeObject(const ObjectChange& change)

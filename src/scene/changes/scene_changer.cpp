@@ -50,7 +50,10 @@ ChangedScene SceneChanger::make(const SceneChange& change)
       keeps_matrix_ ? AllowedCollisionMatrix() : result_.scene.allowed_collisions;
   changeNames(change);
   if (!change.is_diff)
+  {
+    warnOfLostObjects(change);
     clearWorld(false, false);
+  }
   changeFixedFrames(change);
   changeState(change.state, !change.is_diff);
   changeMatrix(change);

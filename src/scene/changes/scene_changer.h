@@ -66,6 +66,7 @@ class SceneChanger
 
   // change_objects.cpp
   /// `keeps_settings`: colours and entries of the matrix.
+  void warnOfLostObjects(const SceneChange& change);
   void clearWorld(bool keeps_octomap, bool keeps_settings);
   void changeObject(const ObjectChange& change);
   void addObject(const ObjectChange& change);

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "gpu_planning_scene/error.h"
+#include "model/full_states.h"
 #include "model/joint_limits.h"
 #include "model/text/name_list.h"
 #include "model/virtual_joint.h"
@@ -176,6 +177,7 @@ std::vector<double> readRobotState(const YamlValue& value, SceneReader& reader)
   if (std::find(state.given.begin(), state.given.end(), true) == state.given.end())
     return {};
   // The virtual joint is not in the URDF. Scene files often leave it out, and then mean its default, or that of tf.
+  const std::vector<bool> may_be_missing = PartialState(reader.robot).known;
   std::vector<std::string> missing;
   std::vector<int> columns;
   std::vector<double> values;
@@ -189,7 +191,7 @@ std::vector<double> readRobotState(const YamlValue& value, SceneReader& reader)
       columns.push_back(static_cast<int>(i));
       values.push_back(state.values[i]);
     }
-    else if (std::find(of_virtual_joint.begin(), of_virtual_joint.end(), static_cast<int>(i)) == of_virtual_joint.end())
+    else if (!may_be_missing[i])
       missing.push_back(reader.robot.variables()[i].name);
   if (!missing.empty())
     reader.warn(start + "joints without a value get their default: " + nameList(missing));

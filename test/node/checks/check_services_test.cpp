@@ -94,7 +94,7 @@ TEST_F(Service, OtherVariablesTakeTheCurrentState)
       request({"turn"}, {0.0}),
       "no value for slide; give values for all joints (a named state takes no further values), or set the "
       "current state: "
-      "with the topic joint_states, with robot_state.joint_state in the scene file, or with "
+      "with robot_state.joint_state in the scene file, or, for a node, with the topic joint_states or "
       "~apply_planning_scene; list joints that nobody measures, such as casters, as <passive_joint> in the SRDF");
   store.updateState({{"slide", 1.0}});
   EXPECT_EQ((std::vector<std::uint8_t>{0}), answer(request({"turn"}, {0.5})).valid);

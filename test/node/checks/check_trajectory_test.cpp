@@ -134,7 +134,7 @@ TEST_F(SliderTrajectory, JointsThatItDoesNotNameKeepTheStartsValues)
       request,
       "no value for slide, turn; give values for all joints (a named state takes no further values), or set "
       "the current state: "
-      "with the topic joint_states, with robot_state.joint_state in the scene file, or with "
+      "with robot_state.joint_state in the scene file, or, for a node, with the topic joint_states or "
       "~apply_planning_scene; list joints that nobody measures, such as casters, as <passive_joint> in the SRDF");
   slider.store.updateState({{"slide", 1.0}, {"turn", 0.0}});
   EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), answer(request).waypoint_valid);
