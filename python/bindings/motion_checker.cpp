@@ -65,8 +65,6 @@ MotionVerdicts checkMotions(const SharedMotionChecker& checker, const py::object
   if (from.count != to.count)
     throw core::Error("there are " + std::to_string(from.count) + " starts and " + std::to_string(to.count) +
                       " ends; give one end for each start");
-  warnOfValuesOutsideLimits(from, *checker.robot, "starts");
-  warnOfValuesOutsideLimits(to, *checker.robot, "ends");
   const double* from_data = from.data();
   const double* to_data = to.data();
   if (const std::string sideways = core::sidewaysMotion(*checker.robot, from_data, to_data, from.count, "motion");
@@ -80,6 +78,8 @@ MotionVerdicts checkMotions(const SharedMotionChecker& checker, const py::object
         return checker.motions.check(from_data, to_data, from.count, question, [&] { return interrupt.requested(); });
       });
   interrupt.rethrow();
+  warnOfValuesOutsideLimits(from, *checker.robot, "starts");
+  warnOfValuesOutsideLimits(to, *checker.robot, "ends");
   return {std::move(verdicts)};
 }
 

@@ -74,10 +74,10 @@ BatchResult checkStates(SharedChecker& checker, const py::object& states, const 
   const auto scene = checker.scene();
   const Rows rows = rowsFrom(states, *scene->robot, "states", &scene->current_state);
   const double* data = rows.data();
-  warnOfValuesOutsideLimits(rows, *scene->robot, "states");
   Interrupt interrupt;
   BatchResult result = withoutLock([&] { return checker.check(data, rows.count, group.value, interrupt); });
   interrupt.rethrow();
+  warnOfValuesOutsideLimits(rows, *scene->robot, "states");
   return result;
 }
 

@@ -91,7 +91,8 @@ TEST_F(ChangeSettings, FullScenesResetUnnamedSettings)
   EXPECT_EQ(1, warned("the padding of link 'cart' is 0.01"));
   EXPECT_EQ(1, warned("the scale of link 'pole' is 1.5"));
   EXPECT_EQ(1, warned("'cart' and 'pole' are no longer checked against each other: the scene is not a diff"));
-  EXPECT_EQ(3u, warnings_.size());
+  EXPECT_EQ(1, warned("removed because the scene's is_diff is false"));
+  EXPECT_EQ(4u, warnings_.size());
   EXPECT_EQ(1.5, scale("pole"));
   EXPECT_EQ(1.0, scale("cart"));
 }
