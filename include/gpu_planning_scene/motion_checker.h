@@ -87,7 +87,8 @@ class MotionChecker
 
   /// `starts`, `ends`: row-major, `count` rows with one value per variable. `stop` is called before each batch of
   /// states; a batch takes about 0.05 s. After `stop` has returned true, motions without a verdict are reported as
-  /// invalid. Throws Error as StateChecker::check does.
+  /// invalid. Throws Error as StateChecker::check does, and for a motion that moves variables outside the group,
+  /// because collisions of links that only these variables move are not checked.
   std::vector<MotionVerdict> check(const double* starts, const double* ends, std::size_t count,
                                    MotionQuery query = MotionQuery::Valid,
                                    const std::function<bool()>& stop = {}) const;

@@ -51,7 +51,9 @@ std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene&
     randomise(*scene.robot, generator, startState(scene), true, state.data());
   }
   if (arguments.has("--state"))
-    if (const std::string warning = setValues(*scene.robot, arguments.value("--state", ""), state); !warning.empty())
+    if (const std::string warning =
+            setValues(*scene.robot, arguments.value("--state", ""), !scene.current_state.empty(), state);
+        !warning.empty())
       printWarnings({warning});
   return state;
 }

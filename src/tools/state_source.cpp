@@ -53,7 +53,7 @@ class StateOfText : public StateSource
  public:
   StateOfText(const PlanningScene& scene, const std::string& text) : text_(text), state_(startState(scene))
   {
-    warning_ = setValues(*scene.robot, text, state_);
+    warning_ = setValues(*scene.robot, text, !scene.current_state.empty(), state_);
   }
 
   std::size_t count() const override { return 1; }

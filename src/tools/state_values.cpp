@@ -8,6 +8,7 @@
 #include "command_line/scene_arguments.h"
 #include "model/full_states.h"
 #include "model/joint_limits.h"
+#include "model/text/name_list.h"
 
 namespace gpu_planning_scene::core
 {
@@ -16,7 +17,7 @@ std::vector<double> startState(const PlanningScene& scene)
   return scene.current_state.empty() ? scene.robot->defaultState() : scene.current_state;
 }
 
-std::string setValues(const RobotModel& robot, const std::string& text, std::vector<double>& state)
+std::string setValues(const RobotModel& robot, const std::string& text, bool has_state, std::vector<double>& state)
 {
   if (text.empty())
     throw UsageError("--state: the text is empty; give NAME=VALUE or the name of a state of the SRDF");
@@ -53,7 +54,16 @@ std::string setValues(const RobotModel& robot, const std::string& text, std::vec
   for (const int variable : variables)
     values.push_back(state[static_cast<std::size_t>(variable)]);
   const auto outside = findValueOutsideLimits(robot, variables, values.data(), 1);
-  return outside ? "--state: " + outside->text : "";
+  std::vector<std::string> assumed;
+  const std::vector<bool> may_be_missing = PartialState(robot).known;
+  for (std::size_t i = 0; i < state.size() && !has_state; ++i)
+    if (!may_be_missing[i] && columns.count(static_cast<int>(i)) == 0)
+      assumed.push_back(robot.variables()[i].name);
+  std::string warning = outside ? "--state: " + outside->text : "";
+  if (!assumed.empty())
+    warning +=
+        (warning.empty() ? "--state: " : "; ") + ("joints without a value get their default: " + nameList(assumed));
+  return warning;
 }
 
 void randomise(const RobotModel& robot, std::mt19937_64& generator, const std::vector<double>& start, bool keep_base,

@@ -288,13 +288,18 @@ TEST(SrdfStates, OfOneNameAreMergedUnlessTheyDisagree)
   const auto robot = robotOf(armUrdf(), kGroups + std::string(R"(
     <group_state name="home" group="arm"><joint name="arm_1" value="0.5"/></group_state>
     <group_state name="home" group="grip"><joint name="left" value="1"/></group_state>
+    <group name="all"><group name="arm"/><group name="grip"/></group>
     <group_state name="twice" group="arm"><joint name="arm_1" value="0.5"/></group_state>
-    <group_state name="twice" group="grip"><joint name="arm_1" value="0.6"/></group_state>)"));
+    <group_state name="twice" group="all"><joint name="arm_1" value="0.6"/></group_state>
+    <group_state name="again" group="arm"><joint name="arm_1" value="0.5"/></group_state>
+    <group_state name="again" group="arm"><joint name="arm_1" value="0.6"/></group_state>)"));
   EXPECT_EQ(robot->namedState("home").variables.size(), 2u);
   EXPECT_EQ(robot->namedState("arm/home").variables.size(), 1u);
   EXPECT_EQ(errorOf([&] { robot->namedState("twice"); }),
-            "the states 'twice' of the SRDF give arm_1 different values; write GROUP/NAME: arm/twice or grip/twice");
-  EXPECT_EQ(robot->namedState("grip/twice").values, std::vector<double>{0.6});
+            "the states 'twice' of the SRDF give arm_1 different values; write GROUP/NAME: arm/twice or all/twice");
+  EXPECT_EQ(robot->namedState("all/twice").values, std::vector<double>{0.6});
+  EXPECT_EQ(errorOf([&] { robot->namedState("arm/again"); }),
+            "the SRDF has the state 'arm/again' more than once, with different values; remove all but one");
 }
 
 TEST(SrdfStates, WithFaultsGiveWarnings)
@@ -302,7 +307,7 @@ TEST(SrdfStates, WithFaultsGiveWarnings)
   std::vector<std::string> warnings;
   const auto robot = robotOf(armUrdf(), kGroups + std::string(R"(
     <group_state name="a" group="legs"/>
-    <group_state name="b" group="arm"><joint name="arm_9" value="0.5"/><joint name="arm_1" value="0.5 1"/>
+    <group_state name="b" group="arm"><joint name="arm_9" value="0.5"/><joint name="arm_1" value="0.5 1"/><joint name="left" value="1"/>
       <joint name="arm_2" value="0.5x"/></group_state>)"),
                              &warnings);
   EXPECT_EQ(
@@ -313,6 +318,7 @@ TEST(SrdfStates, WithFaultsGiveWarnings)
       "test.srdf:3: state 'a' is ignored: its group 'legs' does not exist",
       "test.srdf:4: state 'b': joint 'arm_9' is not in the robot, the entry is ignored",
       "test.srdf:4: state 'b': joint 'arm_1' needs 1 finite numbers, not '0.5 1'; the entry is ignored",
+      "test.srdf:4: state 'b': joint 'left' is not in its group 'arm', the entry is ignored, as in MoveIt",
       "test.srdf:5: state 'b': joint 'arm_2' needs 1 finite numbers, not '0.5x'; the entry is ignored"};
   EXPECT_EQ(expected, warnings);
 }

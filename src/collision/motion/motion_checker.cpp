@@ -6,6 +6,7 @@
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 
+// Validates the motions. MotionBatch checks them, by the method of Schwarzer, Saha and Latombe (2002).
 namespace gpu_planning_scene::core
 {
 MotionRule motionRuleFromName(const std::string& name)
@@ -16,6 +17,27 @@ MotionRule motionRuleFromName(const std::string& name)
     return MotionRule::Bound;
   throw Error("the motion rule is '" + name + "'; it must be samples or bound");
 }
+
+namespace
+{
+/// Refuses motions of other joints than those of the group, because collisions of the links that only these joints move
+/// are not checked.
+void requireMotionsOfGroup(const RobotModel& robot, const std::string& group, const double* starts, const double* ends,
+                           std::size_t count)
+{
+  if (group.empty())
+    return;
+  const std::size_t width = robot.variables().size();
+  std::vector<bool> moves(width, false);
+  for (const int variable : robot.group(group).variables)
+    moves[static_cast<std::size_t>(variable)] = true;
+  for (std::size_t i = 0; i < count * width; ++i)
+    if (!moves[i % width] && starts[i] != ends[i])
+      throw Error("motion " + std::to_string(i / width) + " moves " + robot.variables()[i % width].name +
+                  ", which is not in group '" + group + "', so collisions of the links that it moves would not be " +
+                  "found; check without a group, or with one that has this joint");
+}
+}  // namespace
 
 MotionChecker::MotionChecker(std::shared_ptr<StateChecker> checker, std::shared_ptr<const RobotModel> robot,
                              std::string group, const MotionCheckerOptions& options)
@@ -29,6 +51,7 @@ std::vector<MotionVerdict> MotionChecker::check(const double* starts, const doub
 {
   validateStates(*robot_, starts, count);
   validateStates(*robot_, ends, count);
+  requireMotionsOfGroup(*robot_, group_, starts, ends, count);
   MotionCheckerOptions options = options_;
   if (query == MotionQuery::Samples)
     options.rule = MotionRule::Samples;

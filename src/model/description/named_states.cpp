@@ -39,6 +39,7 @@ NamedState resolved(const SrdfNamedState& state, const RobotModel& robot, const 
                     std::vector<std::string>& warnings)
 {
   NamedState result{state.name, state.group, {}, {}};
+  const std::vector<int>& group_joints = robot.group(state.group).joints;
   for (const auto& [joint_name, text] : state.values)
   {
     const int index = robot.jointIndex(joint_name.name);
@@ -53,6 +54,11 @@ NamedState resolved(const SrdfNamedState& state, const RobotModel& robot, const 
     const Joint& joint = robot.joints()[static_cast<std::size_t>(index)];
     if (joint.type == JointType::Fixed || joint.mimic)
       continue;
+    if (std::find(group_joints.begin(), group_joints.end(), index) == group_joints.end())
+    {
+      warnings.push_back(start + "is not in its group '" + state.group + "', the entry is ignored, as in MoveIt");
+      continue;
+    }
     const std::vector<double> values = numbersOf(text);
     if (static_cast<int>(values.size()) != variableCount(joint.type))
     {
@@ -80,6 +86,9 @@ void merge(const NamedState& from, const RobotModel& robot, NamedState& to)
     }
     else if (to.values[static_cast<std::size_t>(found - to.variables.begin())] != from.values[i])
     {
+      if (from.group == to.group)
+        throw Error("the SRDF has the state '" + from.group + "/" + from.name +
+                    "' more than once, with different values; remove all but one");
       throw Error("the states '" + from.name + "' of the SRDF give " +
                   robot.variables()[static_cast<std::size_t>(from.variables[i])].name +
                   " different values; write GROUP/NAME: " + to.group + "/" + to.name + " or " + from.group + "/" +

@@ -100,6 +100,8 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
               [this](std::size_t count) { server_.requireStateCount(count); });
         job.states = std::move(rows.values);
         job.group = request.group;
+        if (!is_of_current_state)
+          requireVariableOfGroup(robot, request.group, job.columns);
         const std::size_t count = job.states.size() / job.columns.size();
         auto outside = findValueOutsideLimits(robot, job.columns, job.states.data(), count);
         if (!outside && !is_of_current_state)

@@ -62,6 +62,24 @@ class PointMotions : public testing::Test
   std::shared_ptr<PlanningScene> scene_ = std::make_shared<PlanningScene>(pointRobot());
 };
 
+/// Collisions of the links that only other joints move are not checked for a group.
+TEST(MotionsOfAGroup, OfOtherJointsAreRefused)
+{
+  const auto robot =
+      robotOf(boxLink("base") + boxLink("left") + boxLink("right") +
+                  jointXml("l", "prismatic", "base", "left", std::string("<axis xyz='1 0 0'/>") + kLimit) +
+                  jointXml("r", "prismatic", "base", "right", std::string("<axis xyz='0 1 0'/>") + kLimit),
+              "<group name='arm'><joint name='l'/></group>");
+  const auto scene = std::make_shared<PlanningScene>(robot);
+  const MotionChecker checker(std::make_shared<CpuChecker>(scene), robot, "arm", {});
+  const std::vector<double> starts = {0.0, 0.0, 0.0, 0.0};
+  std::vector<double> ends = {0.5, 0.0, 0.0, 0.5};
+  EXPECT_EQ(errorOf([&] { checker.check(starts.data(), ends.data(), 2); }),
+            "motion 1 moves r, which is not in group 'arm', so collisions of the links that it moves would not be "
+            "found; check without a group, or with one that has this joint");
+  EXPECT_EQ(checker.check(starts.data(), ends.data(), 1).size(), 1U);
+}
+
 TEST_F(PointMotions, OnlyTheBoundRuleDetectsAThinWall)
 {
   scene_->objects = {wall(0.512, 0.001, 0.0, 1.0)};

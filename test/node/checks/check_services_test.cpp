@@ -353,6 +353,9 @@ TEST_F(Service, WrongRequestsAreRefusedWithTheReason)
   CheckStates::Request unknown_group = request({"turn", "slide"}, {0.0, 0.0});
   unknown_group.group = "sails";
   expectRefusal(unknown_group, "sails");
+  CheckStates::Request of_other_group = request({"turn"}, {0.0});
+  of_other_group.group = "drive";
+  expectRefusal(of_other_group, "the request sets no variable of the group 'drive', for example 'turn' is not in it");
 }
 
 TEST_F(Service, NamesInAnswersAreShortAndOnOneLine)
