@@ -169,7 +169,7 @@ class StateChecker(Case):
         with self.assertWarnsRegex(UserWarning, "^states: " + message):
             checker.check(states)
         with self.assertWarnsRegex(UserWarning, "^ends: " + message):
-            gps.MotionChecker(checker, "arm").check(states[[0, 0]], states[:2])
+            gps.MotionChecker(checker).check(states[[0, 0]], states[:2])
 
     def test_the_report_counts_the_pairs(self):
         scene = gps.PlanningScene(rail())
