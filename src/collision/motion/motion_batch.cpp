@@ -202,7 +202,8 @@ std::vector<MotionBatch::Interval> MotionBatch::halves(const std::vector<Interva
 void MotionBatch::prove()
 {
   std::vector<Interval> open = firstIntervals();
-  for (bool are_free = true; !open.empty(); are_free = false)
+  // For the query LastValid, the middles of the first intervals have been checked as samples.
+  for (bool are_free = last_valid_; !open.empty(); are_free = false)
   {
     std::vector<Interval> near;
     checkMiddles(open, true,

@@ -30,7 +30,7 @@ class MotionBatch
   /// Checks the samples. It begins with a few samples of each motion, because most colliding motions collide at one of
   /// them.
   void checkSamples();
-  /// Proves that the motions that are still valid are free between their samples.
+  /// Proves that the motions that are still valid are free, with the samples that checkSamples() left out.
   void prove();
   std::vector<MotionVerdict> verdicts() const;
   std::size_t statesChecked() const { return states_checked_; }
