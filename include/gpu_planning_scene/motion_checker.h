@@ -21,8 +21,8 @@ enum class MotionRule
   /// All samples are free, as in MoveIt and OMPL. A thin obstacle between two samples is missed.
   Samples,
   /// The motion is proven free, its samples included. Around every second sample lies a segment that ends at the
-  /// neighbouring samples. The proof: the clearance of the sample exceeds the displacement of every point
-  /// of the robot within this segment.
+  /// neighbouring samples. The proof: the clearance of the sample exceeds the displacement of every point of the robot
+  /// within this segment.
   Bound
 };
 
@@ -72,8 +72,9 @@ enum class MotionQuery
 };
 
 /// Checks straight motions in bulk. The samples of all motions are checked batch by batch: first the ends and middles,
-/// then the remaining samples of the motions that are still valid. MotionRule::Bound then checks all samples again,
-/// with margins. It subdivides a motion where a sample does not have its margin. Thread-safe.
+/// then the remaining samples of the motions that are still valid; under MotionRule::Bound only some of them, except
+/// for MotionQuery::LastValid. MotionRule::Bound then checks every second sample with margins. It subdivides a motion
+/// where a sample does not have its margin. Thread-safe.
 ///
 /// F. Schwarzer, M. Saha, J.-C. Latombe: Exact collision checking of robot paths (2002). Here, each level of
 /// subdivision is one batch.

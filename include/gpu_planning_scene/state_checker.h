@@ -55,6 +55,11 @@ struct JointNeighbourhood
 {
   std::vector<JointTravel> travel;  ///< rows of one entry (>= 0) per joint of the robot, mimic joints included
   std::vector<std::uint32_t> rows;  ///< one per state: the row of `travel` for the state
+  /// Empty, or one state for each row of `travel`, near the states with this row. Then more neighbourhoods can be
+  /// proven free, because it shows how far the robot's bodies are from the joints' axes.
+  std::vector<double> centers = {};
+  /// In the states of a row, no joint differs from the row's centre by more than this number times its travel.
+  double spread = 0.0;
 };
 
 struct BatchResult

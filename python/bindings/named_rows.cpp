@@ -105,6 +105,20 @@ Rows namedRows(const std::vector<std::string>& names, const core::RobotModel& ro
   return rows;
 }
 
+void requireNamesOfGroup(const std::vector<std::string>& names, const core::RobotModel& robot, const std::string& group,
+                         const std::string& what)
+{
+  for (const std::string& name : names)
+    try
+    {
+      core::requireVariableOfGroup(robot, group, stateOf(name, robot, what).variables);
+    }
+    catch (const core::Error& error)
+    {
+      throw core::Error(what + ": '" + name + "': " + error.what());
+    }
+}
+
 Rows endsFrom(py::handle ends, const Rows& starts, const core::RobotModel& robot)
 {
   const std::vector<std::string> names = namesFrom(ends);

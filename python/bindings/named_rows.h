@@ -16,6 +16,10 @@ std::vector<std::string> namesFrom(py::handle object);
 Rows namedRows(const std::vector<std::string>& names, const core::RobotModel& robot, const std::string& what,
                const std::vector<double>* current);
 
+/// Throws Error if a named state sets no variable of the group, see core::requireVariableOfGroup. `what`: "states".
+void requireNamesOfGroup(const std::vector<std::string>& names, const core::RobotModel& robot, const std::string& group,
+                         const std::string& what);
+
 /// The ends of motions: as rowsFrom(), but variables that a named state does not set keep the values of the start.
 Rows endsFrom(py::handle ends, const Rows& starts, const core::RobotModel& robot);
 }  // namespace gpu_planning_scene::python

@@ -91,20 +91,13 @@ std::vector<std::vector<double>> goalsFrom(const py::object& goals, const Planni
   const std::vector<std::string> names = namesFrom(goals);
   if (names.empty())
     return states;
+  requireNamesOfGroup(names, *robot, query.group, "goals");
   const core::GroupStateSpace space(robot, query.group, query.workspace);
   for (std::size_t i = 0; i < names.size(); ++i)
   {
     const std::vector<double> named = std::exchange(states[i], query.start);
-    const std::vector<int> set = robot->namedState(names[i]).variables;
-    bool sets_group = false;
     for (const int variable : space.variables())
-    {
       states[i][static_cast<std::size_t>(variable)] = named[static_cast<std::size_t>(variable)];
-      sets_group = sets_group || std::find(set.begin(), set.end(), variable) != set.end();
-    }
-    if (!sets_group)
-      throw core::Error("goals: the state '" + names[i] + "' of the SRDF has no variable of the group '" + query.group +
-                        "'");
   }
   return states;
 }

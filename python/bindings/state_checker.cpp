@@ -8,6 +8,7 @@
 #include "bindings/arguments.h"
 #include "bindings/bindings.h"
 #include "bindings/interrupt.h"
+#include "bindings/named_rows.h"
 #include "collision/checkers/open_checker.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/batch_checker.h"
@@ -73,6 +74,7 @@ BatchResult checkStates(SharedChecker& checker, const py::object& states, const 
 {
   const auto scene = checker.scene();
   const Rows rows = rowsFrom(states, *scene->robot, "states", &scene->current_state);
+  requireNamesOfGroup(namesFrom(states), *scene->robot, group.value, "states");
   const double* data = rows.data();
   Interrupt interrupt;
   BatchResult result = withoutLock([&] { return checker.check(data, rows.count, group.value, interrupt); });

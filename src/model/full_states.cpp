@@ -1,5 +1,7 @@
 #include "model/full_states.h"
 
+#include <algorithm>
+
 #include "gpu_planning_scene/error.h"
 #include "model/text/name_list.h"
 #include "model/text/number_text.h"
@@ -84,6 +86,17 @@ std::vector<int> variableIndices(const RobotModel& robot, const std::vector<std:
     indices.push_back(index);
   }
   return indices;
+}
+
+void requireVariableOfGroup(const RobotModel& robot, const std::string& group, const std::vector<int>& columns)
+{
+  if (group.empty())
+    return;
+  const std::vector<int>& variables = robot.group(group).variables;
+  if (std::find_first_of(columns.begin(), columns.end(), variables.begin(), variables.end()) == columns.end())
+    throw Error("the state sets no variable of the group '" + group + "'; for example, '" +
+                robot.variables()[static_cast<std::size_t>(columns.front())].name +
+                "' is not in it; give no group, or one that has this variable");
 }
 
 std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& columns, const double* rows,

@@ -28,6 +28,10 @@ std::string assumedPassiveJoints(const RobotModel& robot, const std::vector<bool
 /// given twice.
 std::vector<int> variableIndices(const RobotModel& robot, const std::vector<std::string>& names);
 
+/// Throws Error if none of the variables `columns`, which a state sets, is in the group: then the state is meant for
+/// another group, and collisions of the links that its variables move would not be found. `group` may be empty.
+void requireVariableOfGroup(const RobotModel& robot, const std::string& group, const std::vector<int>& columns);
+
 /// Completes `count` rows of values for the variables `columns`. The other variables come from `current`. Returns
 /// row-major full states. Throws Error if `current` does not know a needed variable.
 std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& columns, const double* rows,

@@ -51,11 +51,15 @@ class Planning(Case):
             '<group_state name="raised" group="mast"><joint name="up" value="1"/></group_state>'
             '<group_state name="away" group="all"><joint name="up" value="0.5"/><joint name="turn" value="1.5"/></group_state>'
             '</robot>')
-        checker = gps.StateChecker(gps.PlanningScene(robot), device="cpu")
+        scene = gps.PlanningScene(robot)
+        scene.current_state = [0.1, 0.0]
+        checker = gps.StateChecker(scene, device="cpu")
         result = gps.plan_motion(checker, "arm", [0.1, 0.0], "away")
         np.testing.assert_array_equal([0.1, 1.5], result.waypoints[-1])
-        self.assert_one_line(gps.Error, "^goals: the state 'raised' of the SRDF has no variable of the group 'arm'$",
+        self.assert_one_line(gps.Error, "^goals: 'raised': the state sets no variable of the group 'arm'; for example, 'up' is not",
                              gps.plan_motion, checker, "arm", [0.1, 0.0], ["away", "raised"])
+        self.assert_one_line(gps.Error, "^states: 'raised': the state sets no variable of the group 'arm'",
+                             gps.StateChecker(scene, device="cpu").check, "raised", "arm")
         self.assert_one_line(gps.Error, "^goal 0: up is 1 and at the start 0.1, but group 'arm' does not plan for it",
                              gps.plan_motion, checker, "arm", [0.1, 0.0], [1.0, 0.5])
 

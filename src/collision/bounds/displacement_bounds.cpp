@@ -1,7 +1,6 @@
 #include "collision/bounds/displacement_bounds.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "collision/bounds/displacement_rounding.h"
 #include "collision/bounds/state_box.h"
@@ -47,29 +46,15 @@ Margins DisplacementBounds::margins(const JointNeighbourhood& around, const doub
   const std::size_t variables = robot_->variables().size();
   const std::size_t rows = joints == 0 ? 0 : around.travel.size() / joints;
   Margins result{this->count(), std::vector<double>(rows * this->count()), around.rows, {}};
-  std::vector<double> lower(rows * variables, std::numeric_limits<double>::infinity());
-  std::vector<double> upper(rows * variables, -std::numeric_limits<double>::infinity());
-  std::vector<const double*> states_of_rows(rows);
+  result.within.reserve(count);
   for (std::size_t i = 0; i < count; ++i)
-  {
-    const double* const state = states + i * variables;
-    const std::size_t row = around.rows[i];
-    for (std::size_t k = 0; k < variables; ++k)
-    {
-      lower[row * variables + k] = std::min(lower[row * variables + k], state[k]);
-      upper[row * variables + k] = std::max(upper[row * variables + k], state[k]);
-    }
-    states_of_rows[row] = state;
-    result.within.push_back(withinRanges(ranges_, state) ? 1 : 0);
-  }
+    result.within.push_back(withinRanges(ranges_, states + i * variables) ? 1 : 0);
   StateBox box(*robot_);
   std::vector<double> sums(first_.back());  // of the first 0, 1, 2, ... steps of each chain
   for (std::size_t row = 0; row < rows; ++row)
   {
-    if (states_of_rows[row] == nullptr)
-      continue;
-    box.set(lower.data() + row * variables, upper.data() + row * variables, states_of_rows[row],
-            around.travel.data() + row * joints);
+    box.set(around.centers.empty() ? nullptr : around.centers.data() + row * variables,
+            around.travel.data() + row * joints, around.spread);
     for (std::size_t i = 0; i < chains_.size(); ++i)
       box.sumSteps(*chains_[i], sums.data() + first_[i]);
     double* const margins = result.values.data() + row * this->count();

@@ -44,8 +44,8 @@ class DisplacementBounds
   /// The margins of `count` states (rows of the robot's variables), in metres. For a robot instance: the largest
   /// displacement of its points in the planning frame. For a self pair: the largest displacement of the points of one
   /// instance relative to the other. The margins include rounding. A margin is kLargestMargin if there is no bound, and
-  /// 0 if nothing moves. States with the same row of `around` get the same margins, which are smaller if these states
-  /// are near each other. `around` must be valid, see validateNeighbourhood.
+  /// 0 if nothing moves. States with the same row of `around` have the same margins. `around` must be valid, see
+  /// validateNeighbourhood.
   Margins margins(const JointNeighbourhood& around, const double* states, std::size_t count) const;
 
  private:

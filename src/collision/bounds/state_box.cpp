@@ -4,7 +4,7 @@
 #include <cmath>
 
 // The distance of a body from a joint's axis depends only on the joints between the axis and the body. It is known in
-// the middle of the box. On the way from there to any state of the box, these joints change it by at most what they
+// the centre of the box. On the way from there to any state of the box, these joints change it by at most what they
 // move the body, and this sum has the same form as the bound itself. So the sum is built from the body's joint upwards.
 // Own method.
 namespace gpu_planning_scene::core
@@ -15,25 +15,15 @@ namespace
 constexpr double kArmRounding = 1e-9;  // metres, and relative to the arm
 }  // namespace
 
-StateBox::StateBox(const RobotModel& robot) : robot_(robot), half_(robot.joints().size()), poses_(robot.links().size())
-{
-}
+StateBox::StateBox(const RobotModel& robot) : robot_(robot), poses_(robot.links().size()) {}
 
-void StateBox::set(const double* lower, const double* upper, const double* state, const JointTravel* travel)
+void StateBox::set(const double* center, const JointTravel* travel, double spread)
 {
   travel_ = travel;
-  middle_.assign(state, state + robot_.variables().size());
-  for (std::size_t i = 0; i < half_.size(); ++i)
-  {
-    const Joint& joint = robot_.joints()[i];
-    half_[i] = travel[i].length + travel[i].angle;
-    if (variableCount(joint.type) != 1)
-      continue;
-    const auto variable = static_cast<std::size_t>(joint.first_variable);
-    middle_[variable] = 0.5 * (lower[variable] + upper[variable]);
-    half_[i] += 0.5 * std::abs(joint.multiplier) * (upper[variable] - lower[variable]);
-  }
-  robot_.linkPoses(middle_.data(), poses_.data());
+  reach_ = 1.0 + spread;
+  has_center_ = center != nullptr;
+  if (has_center_)
+    robot_.linkPoses(center, poses_.data());
 }
 
 /// Metres: the largest distance of the instance's points from the axis of the step's joint in the box. `beyond`: the
@@ -58,7 +48,7 @@ double StateBox::armOf(const LeverChain& chain, const LeverChain::Step& step, do
 
 void StateBox::sumSteps(const LeverChain& chain, double* sums) const
 {
-  double beyond = chain.balls.empty() ? kUnboundedArm : 0.0;
+  double beyond = has_center_ && !chain.balls.empty() ? 0.0 : kUnboundedArm;
   *sums = 0.0;
   for (const LeverChain::Step& step : chain.steps)
   {
@@ -66,18 +56,11 @@ void StateBox::sumSteps(const LeverChain& chain, double* sums) const
     if (step.type != JointType::Fixed)
     {
       const JointTravel& travel = travel_[step.joint];
-      const double half = half_[static_cast<std::size_t>(step.joint)];
-      // Zero times an infinite arm is no number, and an arm that is not needed takes time.
-      const bool turns = step.type != JointType::Prismatic && (travel.angle != 0.0 || half != 0.0);
-      const double arm = turns ? armOf(chain, step, beyond) : 1.0;
-      sum += travel.length;
-      if (travel.angle != 0.0)
-        sum += arm * travel.angle;
-      if (half != 0.0)
-        beyond += arm * half;
-      // How far a joint with several variables is from the middle is not known.
-      if (variableCount(step.type) > 1)
-        beyond = kUnboundedArm;
+      double moved = travel.length;
+      if (travel.angle != 0.0)  // zero times an infinite arm is no number, and an arm that is not needed takes time
+        moved += armOf(chain, step, beyond) * travel.angle;
+      sum += moved;
+      beyond += moved * reach_;
     }
     *++sums = sum;
   }

@@ -17,13 +17,12 @@ class StateBox
  public:
   explicit StateBox(const RobotModel& robot);
 
-  /// Makes the box contain states and their neighbourhoods. `lower`, `upper`: the range of each variable over the
-  /// states. `state`: one of them. `travel`: of each joint in the neighbourhoods; it must outlive the calls of
-  /// sumSteps().
-  void set(const double* lower, const double* upper, const double* state, const JointTravel* travel);
+  /// Makes the box contain all states in which no joint differs from `center` by more than 1 + `spread` times its
+  /// `travel`. Null: all states within the limits. `travel`: of each joint; it must outlive the calls of sumSteps().
+  void set(const double* center, const JointTravel* travel, double spread);
 
   /// Writes, for the first 0, 1, 2, ... steps of a chain, the largest displacement of the chain's instance, in metres,
-  /// while the joints of these steps move by their travel from one of the states. It may be infinite.
+  /// while the joints of these steps move by their travel within the box. It may be infinite.
   void sumSteps(const LeverChain& chain, double* sums) const;
 
  private:
@@ -31,8 +30,8 @@ class StateBox
 
   const RobotModel& robot_;
   const JointTravel* travel_ = nullptr;
-  std::vector<double> middle_;
-  std::vector<double> half_;              // of each joint: how far its position may be from the middle
-  std::vector<Eigen::Isometry3d> poses_;  // of the links, in the middle
+  bool has_center_ = false;
+  double reach_ = 0.0;                    // how far a joint may be from the centre, in travels
+  std::vector<Eigen::Isometry3d> poses_;  // of the links, in the centre
 };
 }  // namespace gpu_planning_scene::core

@@ -61,7 +61,7 @@ Message messageOf(const std::exception_ptr& error)
 
 /// The neighbourhoods of `count` states from `begin` on, with the rows of the travel that they use.
 JointNeighbourhood neighbourhoodsOf(const JointNeighbourhood& around, std::size_t begin, std::size_t count,
-                                    std::size_t joints)
+                                    const RobotModel& robot)
 {
   if (count == 0)
     return {};
@@ -70,9 +70,16 @@ JointNeighbourhood neighbourhoodsOf(const JointNeighbourhood& around, std::size_
   share.rows.assign(rows, rows + static_cast<std::ptrdiff_t>(count));
   const auto [least, most] = std::minmax_element(share.rows.begin(), share.rows.end());
   const std::uint32_t first = *least;
-  const auto travel = around.travel.begin();
-  share.travel.assign(travel + static_cast<std::ptrdiff_t>(first * joints),
-                      travel + static_cast<std::ptrdiff_t>((*most + std::size_t{1}) * joints));
+  const std::size_t end = *most + std::size_t{1};
+  const auto copy = [first, end](const auto& from, std::size_t width, auto& to)
+  {
+    to.assign(from.begin() + static_cast<std::ptrdiff_t>(first * width),
+              from.begin() + static_cast<std::ptrdiff_t>(end * width));
+  };
+  copy(around.travel, robot.joints().size(), share.travel);
+  if (!around.centers.empty())
+    copy(around.centers, robot.variables().size(), share.centers);
+  share.spread = around.spread;
   for (std::uint32_t& row : share.rows)
     row -= first;
   return share;
@@ -260,7 +267,7 @@ void DeviceGroup::checkShares(StateChecker& device, Batch& batch) const
     {
       JointNeighbourhood around;
       if (batch.around)
-        around = neighbourhoodsOf(*batch.around, begin, count, scene_->robot->joints().size());
+        around = neighbourhoodsOf(*batch.around, begin, count, *scene_->robot);
       BatchResult& result = batch.results[*share];
       result = device.check(batch.states + begin * batch.width, count, batch.group, batch.around ? &around : nullptr);
       if (result.revision != scene_->revision)

@@ -22,9 +22,6 @@ constexpr std::size_t kGrowth = 4;
 // sample.
 constexpr double kLeastTravel = 1e-7;  // radians and metres
 
-// Neighbouring intervals that share displacement bounds. More would make the bounds wider, fewer take more time.
-constexpr std::size_t kSharedBounds = 8;
-
 // Under the rule Bound, one sample in so many is checked before the segments are proven free. Most motions are free,
 // and a proof includes the samples in its segment.
 constexpr std::size_t kBeforeProof = 8;
@@ -85,6 +82,20 @@ std::size_t MotionBatch::nextBatch(std::size_t wanted)
   return stopped_ ? 0 : std::min({wanted, batch_size_.size(), options_.max_checks - states_checked_});
 }
 
+/// Adds the neighbourhoods of the interval's group. They depend only on the motion and on the group, so that the
+/// answers do not depend on how batches are cut.
+void MotionBatch::addRow(const Interval& interval, JointNeighbourhood& around) const
+{
+  const Motion& motion = motions_[interval.motion];
+  for (const JointTravel& joint : motion.travel)
+    around.travel.push_back({joint.length * interval.half, joint.angle * interval.half});
+  const double middle = static_cast<double>(2 * interval.group() + 1) * Interval::kGroup * interval.half;
+  const std::size_t width = robot_.variables().size();
+  around.centers.resize(around.centers.size() + width);
+  interpolate(robot_, motion.from, motion.to, std::min(1.0, middle), &around.centers[around.centers.size() - width]);
+  around.spread = Interval::kGroup;
+}
+
 template <class Visit>
 void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit)
 {
@@ -106,7 +117,7 @@ void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with
     states.resize(count * width);
     JointNeighbourhood around;
     std::size_t last_motion = motions_.size();
-    std::size_t sharing = 0;  // intervals
+    std::size_t last_group = 0;
     for (std::size_t i = 0; i < count; ++i)
     {
       const Interval& interval = intervals[begin + i];
@@ -115,15 +126,11 @@ void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with
       ++motion.samples;
       if (!with_margins)
         continue;
-      // A motion's intervals are consecutive and equally wide.
-      if (interval.motion != last_motion || sharing == kSharedBounds)
-      {
-        sharing = 0;
-        for (const JointTravel& joint : motion.travel)
-          around.travel.push_back({joint.length * interval.half, joint.angle * interval.half});
-      }
-      ++sharing;
+      // All intervals of a motion are equally wide.
+      if (interval.motion != last_motion || interval.group() != last_group)
+        addRow(interval, around);
       last_motion = interval.motion;
+      last_group = interval.group();
       around.rows.push_back(static_cast<std::uint32_t>(around.travel.size() / motion.travel.size() - 1));
     }
     states_checked_ += count;

@@ -44,6 +44,11 @@ class MotionBatch
     double half;
 
     double begin() const { return std::max(0.0, middle - half); }
+
+    /// Neighbouring intervals of one width share displacement bounds. Larger groups have wider bounds, smaller ones
+    /// take more time.
+    static constexpr int kGroup = 8;
+    std::size_t group() const { return static_cast<std::size_t>(0.5 * middle / half) / kGroup; }
   };
 
   struct Motion
@@ -92,6 +97,7 @@ class MotionBatch
   /// each. After the call has been stopped, or when it has no checks left, `free` is false.
   template <class Visit>
   void checkMiddles(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit);
+  void addRow(const Interval& interval, JointNeighbourhood& around) const;
   /// The number of intervals to check next, in one batch; 0: the call is stopped or has no checks left.
   std::size_t nextBatch(std::size_t wanted);
   std::vector<Interval> firstIntervals() const;

@@ -40,6 +40,13 @@ void validateNeighbourhood(const RobotModel& robot, const JointNeighbourhood& ar
     if (around.rows[i] >= rows)
       throw Error("the neighbourhood of state " + std::to_string(i) + " names row " + std::to_string(around.rows[i]) +
                   ", but there are " + std::to_string(rows) + " rows");
+  if (!around.centers.empty() && around.centers.size() != rows * robot.variables().size())
+    throw Error("the neighbourhood has " + std::to_string(around.centers.size()) + " values of centres; " +
+                std::to_string(rows) + " rows need " + std::to_string(rows * robot.variables().size()));
+  if (!(around.spread >= 0.0 && std::isfinite(around.spread)))
+    throw Error("the spread of a neighbourhood is " + std::to_string(around.spread) +
+                "; it must be finite and at least 0");
+  validateStates(robot, around.centers.data(), around.centers.empty() ? 0 : rows, "centre");
   for (const JointTravel& travel : around.travel)
     if (!(travel.length >= 0.0 && travel.angle >= 0.0 && std::isfinite(travel.length) && std::isfinite(travel.angle)))
       throw Error("the travel of a joint around a state is " + std::to_string(travel.length) + " m and " +

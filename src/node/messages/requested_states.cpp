@@ -47,17 +47,6 @@ NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::st
   return row;
 }
 
-void requireVariableOfGroup(const RobotModel& robot, const std::string& group, const std::vector<int>& columns)
-{
-  if (group.empty())
-    return;
-  const std::vector<int>& variables = robot.group(group).variables;
-  if (std::find_first_of(columns.begin(), columns.end(), variables.begin(), variables.end()) == columns.end())
-    throw Error("the request sets no variable of the group '" + group + "', for example '" +
-                robot.variables()[static_cast<std::size_t>(columns.front())].name +
-                "' is not in it; leave out the group, or name the one that has this variable");
-}
-
 void requireWholeRotations(const RobotModel& robot, const std::vector<int>& columns)
 {
   constexpr int kRotation = 3;  // index of the first rotation variable of a floating joint, after the position

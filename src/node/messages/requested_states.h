@@ -35,10 +35,6 @@ struct NamedRow
 /// no such state.
 NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::string>& field, const char* conflict);
 
-/// Throws Error if none of the columns is a variable of the group: the request is for another one, and collisions of
-/// the links that its columns move would not be found. `group` may be empty.
-void requireVariableOfGroup(const RobotModel& robot, const std::string& group, const std::vector<int>& columns);
-
 /// Throws Error if the columns have only some of the four variables of a floating joint's rotation: a motion between
 /// two such rotations is not defined.
 void requireWholeRotations(const RobotModel& robot, const std::vector<int>& columns);

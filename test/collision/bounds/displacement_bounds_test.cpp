@@ -91,27 +91,30 @@ TEST_F(Displacement, OfAStretchedArmIsTheSumOfWhatItsJointsMoveTheTip)
 }
 
 /// The shoulder moves the tip of a bent arm less than that of a stretched one.
-TEST_F(Displacement, OfABentArmIsSmallerUnlessAStretchedOneSharesItsRow)
+TEST_F(Displacement, OfABentArmIsSmallerIfTheElbowIsKnownToStayBent)
 {
   const auto robot = arm();
   const double bent = 1.0;
   const Eigen::Vector3d tip(0.5 + 0.5 * std::cos(bent), 0.5 * std::sin(bent), 0.0);
-  std::vector<double> states = robot->defaultState();
-  states[1] = bent;
-  const std::vector<double> stretched = robot->defaultState();
-  states.insert(states.end(), stretched.begin(), stretched.end());
+  std::vector<double> state = robot->defaultState();
+  state[1] = bent;
   JointNeighbourhood around;
-  around.travel.resize(2 * robot->joints().size());
-  around.travel[0].angle = around.travel[robot->joints().size()].angle = kTravel;
-  const auto freeWith = [&](double gap, std::uint32_t row_of_stretched)
-  {
-    around.rows = {0, row_of_stretched};
-    return CpuChecker(sceneWith(robot, tip, gap)).check(states.data(), 2, "", &around).valid[0] != 0;
-  };
-  EXPECT_FALSE(freeWith(0.98 * kTravel * tip.norm(), 1));
-  EXPECT_TRUE(freeWith(kTravel * (tip.norm() + 3.0 * kBall), 1));
-  EXPECT_LT(tip.norm() + 3.0 * kBall, 1.0);
-  EXPECT_FALSE(freeWith(kTravel * (tip.norm() + 3.0 * kBall), 0));
+  around.rows = {0};
+  around.travel.resize(robot->joints().size());
+  around.travel[0].angle = kTravel;
+  const auto isFree = [&](double gap)
+  { return CpuChecker(sceneWith(robot, tip, gap)).check(state.data(), 1, "", &around).valid[0] != 0; };
+  const double near = kTravel * (tip.norm() + 3.0 * kBall);
+  ASSERT_LT(near, kTravel);
+  EXPECT_FALSE(isFree(near)) << "no centre, so the elbow may be anywhere";
+  around.centers = state;
+  EXPECT_TRUE(isFree(near));
+  EXPECT_FALSE(isFree(0.98 * kTravel * tip.norm()));
+  // The elbow may be as far from the centre as its travel times the spread, so the arm may be stretched.
+  around.travel[1].angle = 1e-6;
+  EXPECT_TRUE(isFree(near));
+  around.spread = 1e6;
+  EXPECT_FALSE(isFree(near));
 }
 
 TEST_F(Displacement, CountsTheTravelOfFollowers)
@@ -189,6 +192,13 @@ TEST_F(Displacement, RefusesInvalidNeighbourhoods)
   around.rows = {0, 0};
   EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }),
             "the neighbourhood of 1 states (robot with 3 joints) has 2 row numbers and 3 joint travels");
+  around = allTravel(*robot);
+  around.centers = {0.0};
+  EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }), "the neighbourhood has 1 values of centres; 1 rows need 3");
+  around.centers.clear();
+  around.spread = -1.0;
+  EXPECT_EQ(errorOf([&] { isFreeAround(scene, around); }),
+            "the spread of a neighbourhood is -1.000000; it must be finite and at least 0");
   around = allTravel(*robot);
   around.travel.pop_back();
   EXPECT_NE(errorOf([&] { isFreeAround(scene, around); }), "");

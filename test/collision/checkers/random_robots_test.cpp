@@ -350,7 +350,10 @@ double expectWithinMargins(const PlanningScene& scene, const CollisionProblem& p
     around.travel.push_back({around.travel[i].length / kParts, around.travel[i].angle / kParts});
 
   std::vector<PlacedPoints> placed;
-  std::vector<double> states = start;  // then the states between the parts, which share a row
+  // The second row is that of all states between the parts. Its centre is the middle of the motion.
+  std::vector<double> states = start;
+  around.spread = kParts / 2;
+  around.centers = start;
   std::vector<double> state(start.size());
   for (int part = 0; part <= kParts; ++part)
   {
@@ -358,6 +361,8 @@ double expectWithinMargins(const PlanningScene& scene, const CollisionProblem& p
     placed.emplace_back(robot, problem, state.data());
     states.insert(states.end(), state.begin(), state.end());
     around.rows.push_back(1);
+    if (part == kParts / 2)
+      around.centers.insert(around.centers.end(), state.begin(), state.end());
   }
   const Margins margins = displacements.margins(around, states.data(), around.rows.size());
   EXPECT_EQ(margins.within, std::vector<std::uint8_t>(around.rows.size(), 1));

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <numeric>
 #include <random>
 #include <thread>
 
@@ -21,13 +20,10 @@ namespace
 constexpr std::size_t kManyStates = 25000;  // more than are checked before proofs are made
 constexpr std::size_t kEvery = 10;
 
-/// The same neighbourhood for each state. Each has a row of its own: states that share one get wider margins.
+/// The same neighbourhood for each state.
 JointNeighbourhood around(const RobotModel& robot, std::size_t count)
 {
-  JointNeighbourhood result{std::vector<JointTravel>(count * robot.joints().size(), {0.005, 0.02}),
-                            std::vector<std::uint32_t>(count)};
-  std::iota(result.rows.begin(), result.rows.end(), 0U);
-  return result;
+  return {std::vector<JointTravel>(robot.joints().size(), {0.005, 0.02}), std::vector<std::uint32_t>(count, 0)};
 }
 
 /// The verdicts of every tenth state, one state at a time: so the exact checker decides them alone.

@@ -14,6 +14,7 @@
 #include "gpu_planning_scene/motion_checker.h"
 #include "model/model_testing.h"
 #include "support/repetitions.h"
+#include "support/seed.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core
@@ -78,6 +79,58 @@ TEST(MotionsOfAGroup, OfOtherJointsAreRefused)
             "motion 1 moves r, which is not in group 'arm', so collisions of the links that it moves would not be "
             "found; check without a group, or with one that has this joint");
   EXPECT_EQ(checker.check(starts.data(), ends.data(), 1).size(), 1U);
+}
+
+/// Only some samples are checked before the proofs.
+TEST_F(PointMotions, UnderTheBoundACollisionAtAnyOneSampleIsNamed)
+{
+  constexpr int kSamples = 50;
+  for (int sample = 0; sample <= kSamples; ++sample)
+  {
+    const double at = static_cast<double>(sample) / kSamples;
+    scene_->objects = {wall(at, 0.001, 0.0, 1.0)};
+    const MotionVerdict found = verdict(checker(MotionRule::Bound, 1.0 / kSamples), {0.0, 0.0}, {1.0, 0.0});
+    EXPECT_FALSE(found.valid) << sample;
+    EXPECT_NE(found.colliding, kNoPair) << sample;
+    EXPECT_NEAR(found.first_invalid, at, 0.011) << sample;  // half of the box and of the wall
+  }
+}
+
+/// Batches are cut by time, and replicas cut them elsewhere.
+TEST(MotionsInBatches, HaveTheVerdictsThatTheyHaveAlone)
+{
+  const char* const turns = "<axis xyz='0 0 1'/><limit lower='-3' upper='3' effort='1' velocity='1'/>";
+  const std::string link =
+      "<collision><origin xyz='0.25 0 0'/><geometry><box size='0.5 0.02 0.02'/></geometry></collision>";
+  const auto robot =
+      robotOf("<link name='base'/><link name='upper'>" + link + "</link><link name='fore'>" + link + "</link>" +
+                  jointXml("shoulder", "revolute", "base", "upper", turns) +
+                  jointXml("elbow", "revolute", "upper", "fore", std::string("<origin xyz='0.5 0 0'/>") + turns),
+              "<disable_collisions link1='upper' link2='fore' reason='Adjacent'/>");
+  const auto scene = std::make_shared<PlanningScene>(robot);
+  scene->objects = {wall(0.6, 0.02, 0.5, 0.3)};
+  const MotionChecker checker(std::make_shared<CpuChecker>(scene), robot, "", {});
+  constexpr std::size_t kMotions = 300;
+  std::mt19937_64 generator(kSeed);
+  std::vector<double> starts(2 * kMotions);
+  std::vector<double> ends(2 * kMotions);
+  for (std::size_t i = 0; i < kMotions; ++i)
+  {
+    robot->randomState(generator, &starts[2 * i]);
+    robot->randomState(generator, &ends[2 * i]);
+  }
+  const auto together = checker.check(starts.data(), ends.data(), kMotions, MotionQuery::LastValid);
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < kMotions; ++i)
+  {
+    const auto alone = checker.check(&starts[2 * i], &ends[2 * i], 1, MotionQuery::LastValid).front();
+    EXPECT_EQ(alone.valid, together[i].valid) << "motion " << i << ", seed " << kSeed;
+    EXPECT_EQ(alone.last_valid, together[i].last_valid) << "motion " << i << ", seed " << kSeed;
+    EXPECT_EQ(alone.first_invalid, together[i].first_invalid) << "motion " << i << ", seed " << kSeed;
+    valid += alone.valid ? 1 : 0;
+  }
+  EXPECT_GT(valid, kMotions / 10);
+  EXPECT_LT(valid, kMotions * 9 / 10);
 }
 
 TEST_F(PointMotions, OnlyTheBoundRuleDetectsAThinWall)

@@ -353,9 +353,9 @@ TEST_F(Service, WrongRequestsAreRefusedWithTheReason)
   CheckStates::Request unknown_group = request({"turn", "slide"}, {0.0, 0.0});
   unknown_group.group = "sails";
   expectRefusal(unknown_group, "sails");
-  CheckStates::Request of_other_group = request({"turn"}, {0.0});
-  of_other_group.group = "drive";
-  expectRefusal(of_other_group, "the request sets no variable of the group 'drive', for example 'turn' is not in it");
+  CheckStates::Request of_other_group = request({"slide"}, {0.0});
+  of_other_group.group = "mast";
+  expectRefusal(of_other_group, "the state sets no variable of the group 'mast'; for example, 'slide' is not in it");
 }
 
 TEST_F(Service, NamesInAnswersAreShortAndOnOneLine)
@@ -479,6 +479,11 @@ TEST_F(Service, AMotionIsAnsweredWithWhereItIsBlockedAndByWhat)
   EXPECT_EQ("cart", response.body_1.at(1));
   EXPECT_EQ("wall", response.body_2.at(1));
   EXPECT_EQ(5u, response.scene_revision);
+  asked.group = "mast";
+  const CheckMotions::Response of_other_group = services.checkMotions(asked);
+  EXPECT_FALSE(of_other_group.success);
+  EXPECT_EQ(0u, of_other_group.message.find("motion 0 moves slide, which is not in group 'mast'"))
+      << of_other_group.message;
   asked.ends.pop_back();
   EXPECT_NE(std::string::npos, services.checkMotions(asked).message.find("4 values in starts and 3 in ends"));
 }
