@@ -99,6 +99,15 @@ void requireVariableOfGroup(const RobotModel& robot, const std::string& group, c
                 "' is not in it; give no group, or one that has this variable");
 }
 
+int movedVariableBeyond(const RobotModel& robot, const std::vector<int>& variables, const double* from,
+                        const double* to)
+{
+  for (int i = 0; i < static_cast<int>(robot.variables().size()); ++i)
+    if (from[i] != to[i] && std::find(variables.begin(), variables.end(), i) == variables.end())
+      return i;
+  return -1;
+}
+
 std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& columns, const double* rows,
                                std::size_t count, const PartialState& current)
 {

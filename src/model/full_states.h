@@ -32,6 +32,10 @@ std::vector<int> variableIndices(const RobotModel& robot, const std::vector<std:
 /// another group, and collisions of the links that its variables move would not be found. `group` may be empty.
 void requireVariableOfGroup(const RobotModel& robot, const std::string& group, const std::vector<int>& columns);
 
+/// The first variable that is not one of `variables` and differs between two full states; -1: none.
+int movedVariableBeyond(const RobotModel& robot, const std::vector<int>& variables, const double* from,
+                        const double* to);
+
 /// Completes `count` rows of values for the variables `columns`. The other variables come from `current`. Returns
 /// row-major full states. Throws Error if `current` does not know a needed variable.
 std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& columns, const double* rows,

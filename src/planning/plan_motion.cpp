@@ -21,6 +21,7 @@
 #include "gpu_planning_scene/planning/path_optimizer.h"
 #include "gpu_planning_scene/planning/path_shortcutter.h"
 #include "gpu_planning_scene/planning/state_validity_checker.h"
+#include "model/full_states.h"
 #include "model/joint_limits.h"
 #include "model/seconds_since.h"
 #include "model/text/number_text.h"
@@ -84,15 +85,16 @@ void validateQuery(const PlanningScene& scene, const PlanningQuery& query)
 /// Refuses goals that no motion of the group reaches, because they move other variables.
 void requireMotionOfGroup(const GroupStateSpace& space, const PlanningQuery& query)
 {
-  std::vector<bool> moves(query.start.size(), false);
-  for (const int variable : space.variables())
-    moves[static_cast<std::size_t>(variable)] = true;
+  const RobotModel& robot = *space.robot();
   for (std::size_t i = 0; i < query.goals.size(); ++i)
-    for (std::size_t j = 0; j < moves.size(); ++j)
-      if (!moves[j] && query.goals[i][j] != query.start[j])
-        throw Error("goal " + std::to_string(i) + ": " + space.robot()->variables()[j].name + " is " +
-                    numberText(query.goals[i][j]) + " and at the start " + numberText(query.start[j]) +
-                    ", but group '" + query.group + "' does not plan for it; give it the value of the start");
+    if (const int moved = movedVariableBeyond(robot, space.variables(), query.start.data(), query.goals[i].data());
+        moved >= 0)
+    {
+      const auto variable = static_cast<std::size_t>(moved);
+      throw Error("goal " + std::to_string(i) + ": " + robot.variables()[variable].name + " is " +
+                  numberText(query.goals[i][variable]) + " and at the start " + numberText(query.start[variable]) +
+                  ", but group '" + query.group + "' does not plan for it; give it the value of the start");
+    }
 }
 
 std::string seconds(double value)

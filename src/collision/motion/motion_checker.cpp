@@ -5,19 +5,11 @@
 #include "collision/motion/motion_batch.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
+#include "model/full_states.h"
 
 // Validates the motions. MotionBatch checks them, by the method of Schwarzer, Saha and Latombe (2002).
 namespace gpu_planning_scene::core
 {
-MotionRule motionRuleFromName(const std::string& name)
-{
-  if (name == "samples")
-    return MotionRule::Samples;
-  if (name == "bound")
-    return MotionRule::Bound;
-  throw Error("the motion rule is '" + name + "'; it must be samples or bound");
-}
-
 namespace
 {
 /// Refuses motions of other joints than those of the group, because collisions of the links that only these joints move
@@ -28,16 +20,23 @@ void requireMotionsOfGroup(const RobotModel& robot, const std::string& group, co
   if (group.empty())
     return;
   const std::size_t width = robot.variables().size();
-  std::vector<bool> moves(width, false);
-  for (const int variable : robot.group(group).variables)
-    moves[static_cast<std::size_t>(variable)] = true;
-  for (std::size_t i = 0; i < count * width; ++i)
-    if (!moves[i % width] && starts[i] != ends[i])
-      throw Error("motion " + std::to_string(i / width) + " moves " + robot.variables()[i % width].name +
+  const std::vector<int>& variables = robot.group(group).variables;
+  for (std::size_t i = 0; i < count; ++i)
+    if (const int moved = movedVariableBeyond(robot, variables, starts + i * width, ends + i * width); moved >= 0)
+      throw Error("motion " + std::to_string(i) + " moves " + robot.variables()[static_cast<std::size_t>(moved)].name +
                   ", which is not in group '" + group + "', so collisions of the links that it moves would not be " +
                   "found; check without a group, or with one that has this joint");
 }
 }  // namespace
+
+MotionRule motionRuleFromName(const std::string& name)
+{
+  if (name == "samples")
+    return MotionRule::Samples;
+  if (name == "bound")
+    return MotionRule::Bound;
+  throw Error("the motion rule is '" + name + "'; it must be samples or bound");
+}
 
 MotionChecker::MotionChecker(std::shared_ptr<StateChecker> checker, std::shared_ptr<const RobotModel> robot,
                              std::string group, const MotionCheckerOptions& options)
