@@ -189,16 +189,21 @@ std::vector<std::string> warningsOfScene(const PlanningScene& scene, const Scene
     const auto links = static_cast<std::int32_t>(scene.robot->links().size());
     const bool are_links = std::all_of(other.begin(), other.end(),
                                        [links](const BodyPair& pair) { return pair[0] < links && pair[1] < links; });
+    const std::int32_t first_carried = links + static_cast<std::int32_t>(scene.objects.size());
+    const bool is_carried = std::any_of(other.begin(), other.end(),
+                                        [first_carried](const BodyPair& pair) { return pair[1] >= first_carried; });
     const SrdfCollisions& srdf = scene.robot->srdfCollisions();
     // If OLD disables pairs at all, generate_acm keeps the pairs that it checks.
     const std::string old = !srdf.has_srdf                                   ? ""
                             : srdf.disabled.empty() && srdf.unproven.empty() ? "--srdf OLD "
                                                                              : "--srdf OLD --drop-checked ";
-    lines.push_back(counted(other.size(), "pair") + found + pairList(scene, other) +
-                    (are_links ? "; these are links of the robot: generate_acm " + old +
-                                     "--out NEW makes an SRDF that allows the pairs that always collide"
-                               : std::string("; move these bodies apart")) +
-                    remedyOfRigid(scene, other));
+    lines.push_back(
+        counted(other.size(), "pair") + found + pairList(scene, other) +
+        (are_links ? "; these are links of the robot: generate_acm " + old +
+                         "--out NEW makes an SRDF that allows the pairs that always collide"
+                   : std::string("; move these bodies apart") +
+                         (is_carried ? ", or name the links that hold a carried object in its touch_links" : "")) +
+        remedyOfRigid(scene, other));
   }
   if (const std::string body = bodyOutOfRange(scene); !body.empty())
     lines.push_back("'" + body +

@@ -6,6 +6,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "model/joint_limits.h"
+#include "model/text/name_list.h"
 #include "model/text/one_line.h"
 #include "node/endpoints/respond.h"
 #include "node/messages/exact_numbers.h"
@@ -170,6 +171,7 @@ void SceneServices::take(const sensor_msgs::JointState& message)
   std::map<std::string, double> variables;
   std::vector<int> columns;
   std::vector<double> values;
+  std::vector<std::string> ignored;
   const std::shared_ptr<const PlanningScene> scene = store_.snapshot().scene;
   for (std::size_t i = 0; i < message.name.size(); ++i)
   {
@@ -179,11 +181,16 @@ void SceneServices::take(const sensor_msgs::JointState& message)
       columns.push_back(variable);
       values.push_back(message.position[i]);
     }
+    else if (scene->robot->jointIndex(message.name[i]) < 0)
+      ignored.push_back(message.name[i]);
   }
   if (const auto outside = findValueOutsideLimits(*scene->robot, columns, values.data(), 1))
     joint_warning_.log("joint_states: " + outside->text);
   const std::string jump = store_.updateState(variables, static_cast<std::int64_t>(message.header.stamp.toNSec()));
   if (!jump.empty())
     time_warning_.log("joint_states: " + jump);
+  // Other robots may share the topic. While a joint of this one has no value, its name may be among those ignored.
+  if (!ignored.empty() && !store_.snapshot().allKnown())
+    name_warning_.log("joint_states: ignored, because the robot does not have these joints: " + nameList(ignored));
 }
 }  // namespace gpu_planning_scene::core

@@ -46,6 +46,7 @@ class SceneServices
   const MemoryGuard& memory_;
   const std::uint64_t setup_;
   OccasionalWarning joint_warning_;
+  OccasionalWarning name_warning_;
   OccasionalWarning time_warning_;
 };
 }  // namespace gpu_planning_scene::core

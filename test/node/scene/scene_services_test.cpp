@@ -132,6 +132,19 @@ TEST_F(JointStates, AWrongMessageChangesNothing)
   EXPECT_EQ(1.0, store.snapshot().state[0]);
 }
 
+/// As from a driver without the prefix of the robot.
+TEST_F(JointStates, OfUnknownJointsGiveAWarningInTheLogWhileJointsHaveNoValue)
+{
+  testing::internal::CaptureStderr();
+  take(jointState({"turn", "left_slide"}, {0.5, 0.5}));
+  EXPECT_NE(std::string::npos, testing::internal::GetCapturedStderr().find(
+                                   "joint_states: ignored, because the robot does not have these joints: left_slide"));
+  SceneServices others{store, nullptr, memory};
+  testing::internal::CaptureStderr();
+  others.take(jointState({"slide", "turn", "wheel"}, {0.5, 0.5, 0.5}));
+  EXPECT_EQ("", testing::internal::GetCapturedStderr()) << "another robot's";
+}
+
 TEST_F(JointStates, ThatMayBeDegreesGiveAWarningInTheLog)
 {
   testing::internal::CaptureStderr();
