@@ -421,11 +421,30 @@ TEST_F(SmallScene, ReportsThePairsThatCollideInEverySample)
   EXPECT_EQ(0U, warnings[0].find("3 pairs in collision in each of 64 random states, so probably no state is valid: "))
       << warnings[0];
   EXPECT_NE(std::string::npos, warnings[0].find("arm - plate")) << warnings[0];
-  EXPECT_NE(std::string::npos, warnings[0].find("move these bodies apart, or name the links that hold a carried object "
-                                                "in its touch_links"))
-      << warnings[0];
+  EXPECT_NE(std::string::npos, warnings[0].find("move these bodies apart;")) << warnings[0];
   EXPECT_NE(std::string::npos, warnings[0].find("allowed_collisions: [[base, plate]]")) << warnings[0];
   EXPECT_EQ(std::string::npos, warnings[0].find("[[arm")) << "the arm need not touch the plate";
+}
+
+TEST_F(SmallScene, NamesTouchLinksOnlyIfACarriedObjectAlwaysCollides)
+{
+  AttachedObject held;
+  held.object = {"held", Eigen::Isometry3d::Identity(), {{Box{{0.1, 0.1, 0.1}}}}};
+  held.link = scene_->robot->linkIndex("arm");
+  scene_->attached.push_back(held);
+  const int held_body = static_cast<int>(scene_->robot->links().size() + scene_->objects.size());
+  ASSERT_EQ("held", scene_->bodyName(held_body));
+  SceneReport report;
+  const auto warning = [&](int body)
+  {
+    report.colliding_in_samples = {{scene_->robot->linkIndex("base"), body}};
+    const std::vector<std::string> warnings = warningsOfScene(*scene_, report);
+    EXPECT_EQ(1U, warnings.size());
+    return warnings.empty() ? std::string() : warnings[0];
+  };
+  EXPECT_NE(std::string::npos, warning(held_body).find("move these bodies apart, or name the links that hold a "
+                                                       "carried object in its touch_links"));
+  EXPECT_EQ(std::string::npos, warning(held_body - 1).find("touch_links"));
 }
 
 TEST_F(SmallScene, WarnsOfLinksThatAlwaysCollideWithTheToolThatAllowsThem)
