@@ -58,11 +58,12 @@ TestScene inFullRanges(const std::string& name, PlanningScene scene)
     made.lower.push_back(variable.lower);
     made.upper.push_back(variable.upper);
   }
+  const std::vector<double> stays = scene.robot->defaultState();
   for (const Joint& joint : scene.robot->joints())
     for (int k = 0; joint.type == JointType::Floating && k < variableCount(joint.type); ++k)
     {
       const auto variable = static_cast<std::size_t>(joint.first_variable + k);
-      made.lower[variable] = made.upper[variable] = scene.current_state[variable];
+      made.lower[variable] = made.upper[variable] = stays[variable];
     }
   made.scene = std::make_shared<const PlanningScene>(std::move(scene));
   return made;
