@@ -62,7 +62,7 @@ TestScene inFullRanges(const std::string& name, PlanningScene scene)
   for (const Joint& joint : scene.robot->joints())
     for (int k = 0; joint.type == JointType::Floating && k < variableCount(joint.type); ++k)
     {
-      const auto variable = static_cast<std::size_t>(joint.first_variable + k);
+      const std::size_t variable = static_cast<std::size_t>(joint.first_variable) + static_cast<std::size_t>(k);
       made.lower[variable] = made.upper[variable] = stays[variable];
     }
   made.scene = std::make_shared<const PlanningScene>(std::move(scene));
