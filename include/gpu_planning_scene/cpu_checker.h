@@ -7,7 +7,7 @@
 namespace gpu_planning_scene::core
 {
 /// Checks states on the CPU, without a GL device: traverses bounding volume trees in double precision, on all cores.
-/// Thread-safe: calls are served one after the other.
+/// Thread-safe: calls of check() run side by side. setScene() waits until they have ended.
 class CpuChecker : public StateChecker
 {
  public:
@@ -20,6 +20,7 @@ class CpuChecker : public StateChecker
                     const JointNeighbourhood* around = nullptr) override;
   SceneReport report(const std::string& group = "") override;
   std::string deviceName() const override;
+  bool checksSideBySide() const override { return true; }
 
  private:
   struct Impl;

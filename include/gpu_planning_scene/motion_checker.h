@@ -95,6 +95,7 @@ class MotionChecker
                                    const std::function<bool()>& stop = {}) const;
 
   MotionRule rule() const { return options_.rule; }
+  bool checksSideBySide() const { return checker_->checksSideBySide(); }  ///< see StateChecker
 
   /// Number of states checked so far, with and without margins.
   std::uint64_t statesChecked() const { return states_checked_; }

@@ -121,7 +121,7 @@ struct SceneReport
 };
 
 /// Checks many robot states for collision at once. Implementations: BatchChecker (GPU and CPU) and CpuChecker.
-/// Thread-safe: calls are served one after the other. A BatchChecker throws DeviceLost if its device fails.
+/// Thread-safe. A BatchChecker throws DeviceLost if its device fails.
 ///
 /// A pair of bodies collides if its distance is at most its required distance. Between the robot and the world, this is
 /// the sum of the two paddings. Within the robot it is 0.
@@ -149,6 +149,9 @@ class StateChecker
 
   /// The name of the device: GL_RENDERER, or "CPU".
   virtual std::string deviceName() const = 0;
+
+  /// True: calls of check() from several threads run side by side. False: they run one after the other.
+  virtual bool checksSideBySide() const { return false; }
 
   /// One line if the device cannot hold the scene, or if its arithmetic breaks an assumption of the error bounds; else
   /// empty. The CPU then checks all states, or every pair whose bounding boxes overlap. The answers stay right.

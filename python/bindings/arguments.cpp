@@ -120,7 +120,7 @@ void warnOfValuesOutsideLimits(const Rows& rows, const core::RobotModel& robot, 
 {
   std::vector<int> columns(robot.variables().size());
   std::iota(columns.begin(), columns.end(), 0);
-  if (const auto outside = core::findValueOutsideLimits(robot, columns, rows.data(), rows.count))
+  if (const auto outside = core::findDoubtfulValue(robot, columns, rows.data(), rows.count))
     warnOf({what + ": row " + std::to_string(outside->row) + ": " + outside->text});
 }
 

@@ -7,6 +7,8 @@
 #include <thread>
 #include <vector>
 
+#include "collision/available_cores.h"
+
 namespace gpu_planning_scene::core
 {
 /// Calls `work(begin, end)` for chunks of [0, count) on all cores; the calling thread takes part. Each thread has its
@@ -35,12 +37,10 @@ void parallelFor(std::size_t count, std::size_t per_chunk, const Work& work)
         error = std::current_exception();
     }
   };
-  // Cached, because asking the system takes longer than checking a state.
-  static const std::size_t cores = std::max(1U, std::thread::hardware_concurrency());
   std::vector<std::thread> helpers;
   try
   {
-    for (std::size_t i = 1; i < std::min(cores, chunks); ++i)
+    for (std::size_t i = 1; i < std::min(availableCores(), chunks); ++i)
       helpers.emplace_back(run);
   }
   catch (const std::exception&)

@@ -94,17 +94,33 @@ std::optional<ValueOutsideLimits> findFarTranslation(const RobotModel& robot, co
 }
 }  // namespace
 
-std::optional<ValueOutsideLimits> findTurnedBase(const RobotModel& robot, const std::vector<int>& columns,
-                                                 const double* rows, std::size_t count)
+std::optional<ValueOutsideLimits> findManyTurns(const RobotModel& robot, const std::vector<int>& columns,
+                                                const double* rows, std::size_t count)
 {
   for (const Joint& joint : robot.joints())
-    for (std::size_t k = 0; joint.type == JointType::Planar && k < columns.size(); ++k)
-      for (std::size_t row = 0; columns[k] == joint.first_variable + 2 && row < count; ++row)
-        if (const double value = rows[row * columns.size() + k]; std::abs(value) > 2.0 * kPi)
-          return ValueOutsideLimits{row, "joint '" + robot.variables()[static_cast<std::size_t>(columns[k])].name +
-                                             "' is " + number(value) + " rad, more than one turn; " + number(value) +
+  {
+    const bool is_planar = joint.type == JointType::Planar;
+    if (!is_planar && (joint.type != JointType::Continuous || joint.mimic))
+      continue;
+    const int angle = joint.first_variable + (is_planar ? 2 : 0);
+    // A measured angle of a wheel or a wrist may be many turns, but it is no whole number.
+    const auto may_be_degrees = [is_planar](double value)
+    { return std::abs(value) > 2.0 * kPi && (is_planar || std::round(value) == value); };
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      for (std::size_t row = 0; columns[k] == angle && row < count; ++row)
+        if (const double value = rows[row * columns.size() + k]; may_be_degrees(value))
+          return ValueOutsideLimits{row, "joint '" + robot.variables()[static_cast<std::size_t>(angle)].name + "' is " +
+                                             number(value) + " rad, more than one turn; " + number(value) +
                                              " degrees are " + number(value * kPi / 180.0) + " rad"};
+  }
   return std::nullopt;
+}
+
+std::optional<ValueOutsideLimits> findDoubtfulValue(const RobotModel& robot, const std::vector<int>& columns,
+                                                    const double* rows, std::size_t count)
+{
+  const auto outside = findValueOutsideLimits(robot, columns, rows, count);
+  return outside ? outside : findManyTurns(robot, columns, rows, count);
 }
 
 void ValuesOutsideLimits::add(int variable, double value)

@@ -50,10 +50,15 @@ struct ValueOutsideLimits
   std::string text;
 };
 
-/// The first angle of a planar joint that is more than one turn and so may be in degrees. For values that a person
-/// gives: the yaw of odometry may be any number of turns. `rows`: `count` rows of values for the variables `columns`.
-std::optional<ValueOutsideLimits> findTurnedBase(const RobotModel& robot, const std::vector<int>& columns,
-                                                 const double* rows, std::size_t count);
+/// The first angle that may be in degrees although it has no limits: of a planar joint, more than one turn; of a
+/// continuous joint, a whole number of more than one turn. For values that a person gives: a measured angle may be any
+/// number of turns. `rows`: `count` rows of values for the variables `columns`.
+std::optional<ValueOutsideLimits> findManyTurns(const RobotModel& robot, const std::vector<int>& columns,
+                                                const double* rows, std::size_t count);
+
+/// findValueOutsideLimits, or else findManyTurns.
+std::optional<ValueOutsideLimits> findDoubtfulValue(const RobotModel& robot, const std::vector<int>& columns,
+                                                    const double* rows, std::size_t count);
 
 /// `rows`: `count` rows of values for the variables `columns`. No value: nothing is outside the limits by more than
 /// 1e-6 (radians, metres), or beyond kExactRange.

@@ -1,15 +1,17 @@
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 
 #include <algorithm>
+#include <string>
 
 #include <ompl/util/Time.h>
 
+#include "collision/available_cores.h"
 #include "planning/bulk_validator.h"
-#include "planning/rrt_search.h"
+#include "planning/rrt_searches.h"
 
-// RRT-Connect that checks motions in batches: OMPL's interface, the inputs and the time. RrtSearch and
-// BidirectionalTree grow the trees. J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query
-// path planning. ICRA 2000.
+// RRT-Connect that checks motions in batches: OMPL's interface, the inputs and the time. RrtSearches,
+// RrtSearch and BidirectionalTree grow the trees. J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to
+// single-query path planning. ICRA 2000.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -28,6 +30,10 @@ constexpr std::size_t kFirstGoals = 8;
 constexpr double kProofOfTime = 0.1;
 constexpr double kLeastProof = 0.1;
 constexpr double kMaxProof = 1.0;
+
+// More searches hardly shorten the time of the fastest one, and all of them read the same memory.
+constexpr std::size_t kMostSearches = 8;
+constexpr unsigned int kMostThreads = 64;  // more would only be a mistake
 }  // namespace
 
 BatchRrtConnect::BatchRrtConnect(const ob::SpaceInformationPtr& information)
@@ -39,6 +45,7 @@ BatchRrtConnect::BatchRrtConnect(const ob::SpaceInformationPtr& information)
   declareParam<double>("range", this, &BatchRrtConnect::setRange, &BatchRrtConnect::getRange, "0.:1.:10000.");
   declareParam<unsigned int>("branches", this, &BatchRrtConnect::setBranches, &BatchRrtConnect::getBranches,
                              "1:1:1024");
+  declareParam<unsigned int>("searches", this, &BatchRrtConnect::setSearches, &BatchRrtConnect::getSearches, "0:1:64");
   declareParam<unsigned int>("max_rounds", this, &BatchRrtConnect::setMaxRounds, &BatchRrtConnect::getMaxRounds,
                              "0:1:1000000");
 }
@@ -54,6 +61,14 @@ void BatchRrtConnect::setRange(double range)
 void BatchRrtConnect::setBranches(unsigned int branches)
 {
   branches_ = std::max(1U, branches);
+}
+
+void BatchRrtConnect::setSearches(unsigned int searches)
+{
+  if (searches > kMostThreads)
+    throw ompl::Exception(getName(), "searches is " + std::to_string(searches) + "; it must be at most " +
+                                         std::to_string(kMostThreads));
+  searches_ = searches;
 }
 
 void BatchRrtConnect::setup()
@@ -86,7 +101,7 @@ const ob::State* BatchRrtConnect::firstGoal(const ob::GoalSampleableRegion& goal
 ob::PlannerStatus BatchRrtConnect::takeInputs(const ob::GoalSampleableRegion& goal,
                                               const ob::PlannerTerminationCondition& ptc)
 {
-  BidirectionalTree& trees = search_->trees();
+  BidirectionalTree& trees = search_->first().trees();
   while (const ob::State* state = pis_.nextStart())
     trees.addRoot(BidirectionalTree::Start, state);
   if (trees.tree(BidirectionalTree::Start).size() == 0)
@@ -106,11 +121,16 @@ ob::PlannerStatus BatchRrtConnect::takeInputs(const ob::GoalSampleableRegion& go
 
 void BatchRrtConnect::takeMoreGoals()
 {
-  BidirectionalTree& trees = search_->trees();
+  BidirectionalTree& trees = search_->first().trees();
   const std::size_t wanted = std::max(kFirstGoals, trees.tree(BidirectionalTree::Goal).size() / 2);
   for (std::size_t i = 0; i < kFirstGoals && pis_.haveMoreGoalStates() && pis_.getSampledGoalsCount() < wanted; ++i)
     if (const ob::State* state = pis_.nextGoal())
       trees.addRoot(BidirectionalTree::Goal, state);
+}
+
+std::size_t BatchRrtConnect::searchesOf(const MotionValidator& validator) const
+{
+  return searches_ != 0 ? searches_ : validator.checksSideBySide() ? std::min(availableCores(), kMostSearches) : 1;
 }
 
 ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& ptc)
@@ -123,7 +143,7 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
     return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
   }
   if (!search_)
-    search_ = std::make_unique<RrtSearch>(*this);
+    search_ = std::make_unique<RrtSearches>(*this);
   if (const ob::PlannerStatus status = takeInputs(*goal, ptc); !status)
   {
     OMPL_ERROR("%s: there is no valid %s state", getName().c_str(),
@@ -132,12 +152,9 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
   }
   const MotionValidator& validator = bulkValidatorOf(*si_, getName().c_str());
   const ompl::time::point start = ompl::time::now();
-  RrtSearch::Path path;
-  for (unsigned int round = 0; !path && !ptc && (max_rounds_ == 0 || round < max_rounds_); ++round)
-  {
-    takeMoreGoals();
-    path = search_->runRound(validator, *goal, {branches_, range_, largest_length_}, ptc);
-  }
+  const RrtSearches::Options options{searchesOf(validator), max_rounds_, {branches_, range_, largest_length_}};
+  RrtSearch::Path path = search_->run(
+      validator, *goal, options, [this] { takeMoreGoals(); }, ptc);
   const double spent = ompl::time::seconds(ompl::time::now() - start);
   const double more = std::clamp(kProofOfTime * spent, kLeastProof, kMaxProof);
   if (!path && !is_exact_only_)

@@ -42,6 +42,7 @@ class BidirectionalTree
   BidirectionalTree& operator=(const BidirectionalTree&) = delete;
 
   const RrtTree& tree(Side side) const { return trees_[side]; }
+  const std::vector<const ompl::base::State*>& roots(Side side) const { return roots_[side]; }
 
   /// Removes vertices, because the motions from their parents to them are not valid after all: see RrtTree::remove.
   void remove(Side side, const std::vector<const RrtTree::Vertex*>& vertices);

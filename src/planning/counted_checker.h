@@ -28,6 +28,7 @@ class CountedChecker : public StateChecker
   SceneReport report(const std::string& group) override { return checker_->report(group); }
   std::string deviceName() const override { return checker_->deviceName(); }
   std::string deviceWarning() const override { return checker_->deviceWarning(); }
+  bool checksSideBySide() const override { return checker_->checksSideBySide(); }
 
   std::uint64_t states() const { return states_; }
   double seconds() const { return 1e-6 * static_cast<double>(microseconds_); }

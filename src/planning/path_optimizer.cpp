@@ -40,6 +40,7 @@ class Search
     planner_.setup();
     planner_.setMaxRounds(kRoundsOfSearch);
     planner_.setExactOnly(true);
+    planner_.setSearches(1);  // the rounds are too few for threads
   }
 
   /// Goes on searching. Returns a path or null.

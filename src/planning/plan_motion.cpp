@@ -213,6 +213,8 @@ void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedS
   definition->setOptimizationObjective(std::make_shared<PathLengthObjective>(information_));
   const ob::PlannerPtr planner = factory.create(information_);
   setParameters(*planner, query_.parameters);
+  if (query_.seed != 0 && planner->params().hasParam("searches") && query_.parameters.count("searches") == 0)
+    planner->params().setParam("searches", "1");  // the path must not depend on the speed of threads
   planner->setProblemDefinition(definition);
   planner->setup();
   const ob::PlannerStatus status = planner->solve(within(query_.seconds - secondsSince(begin_)));

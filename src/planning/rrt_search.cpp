@@ -76,6 +76,12 @@ const RrtTree::Vertex* RrtSearch::closest() const
   return closest;
 }
 
+double RrtSearch::distanceToGoal() const
+{
+  const Vertex* const vertex = closest();
+  return vertex ? distances_[vertex->number] : std::numeric_limits<double>::infinity();
+}
+
 /// True if all motions of the path through a meeting are valid by the validator's own rule. Invalid motions are removed
 /// from the trees.
 bool RrtSearch::isProven(const MotionValidator& validator, const BidirectionalTree::Meeting& meeting,

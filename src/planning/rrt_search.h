@@ -36,6 +36,9 @@ class RrtSearch
   /// true; null if no motion is proven.
   Path approximatePath(const MotionValidator& validator, const ompl::base::PlannerTerminationCondition& ptc) const;
 
+  /// The distance to the goal from the vertex that is closest to it; infinite if there is none.
+  double distanceToGoal() const;
+
   void addTo(ompl::base::PlannerData& data) const;
 
  private:

@@ -79,7 +79,7 @@ class StatesOfFile : public StateSource
     try
     {
       const std::vector<int> columns = variableIndices(robot, table.names);
-      if (const auto outside = findValueOutsideLimits(robot, columns, table.values.data(), table.rows))
+      if (const auto outside = findDoubtfulValue(robot, columns, table.values.data(), table.rows))
         warning_ = path + ":" + std::to_string(outside->row + 2) + ": " + outside->text;
       const PartialState current(robot, scene.current_state);
       std::vector<bool> given(width_, !scene.current_state.empty());

@@ -22,6 +22,7 @@ std::string setValues(const RobotModel& robot, const std::string& text, bool has
   if (text.empty())
     throw UsageError("--state: the text is empty; give NAME=VALUE or the name of a state of the SRDF");
   std::set<int> columns;
+  std::set<int> named;  // by NAME=VALUE
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');)
   {
@@ -37,6 +38,8 @@ std::string setValues(const RobotModel& robot, const std::string& text, bool has
         continue;
       }
       const int variable = variableIndices(robot, {word.substr(0, equals)}).front();
+      if (!named.insert(variable).second)
+        throw Error("variable '" + word.substr(0, equals) + "' is given twice");
       state[static_cast<std::size_t>(variable)] = numbersFrom("--state", word.substr(equals + 1), 1)[0];
       columns.insert(variable);
     }
@@ -53,7 +56,7 @@ std::string setValues(const RobotModel& robot, const std::string& text, bool has
   std::vector<double> values;
   for (const int variable : variables)
     values.push_back(state[static_cast<std::size_t>(variable)]);
-  const auto outside = findValueOutsideLimits(robot, variables, values.data(), 1);
+  const auto outside = findDoubtfulValue(robot, variables, values.data(), 1);
   std::vector<std::string> assumed;
   const std::vector<bool> may_be_missing = PartialState(robot).known;
   for (std::size_t i = 0; i < state.size() && !has_state; ++i)

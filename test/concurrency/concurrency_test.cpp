@@ -1,7 +1,9 @@
 // Several threads check states while another thread changes the scene. Each answer must belong entirely to the scene
 // whose revision it names.
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <functional>
 #include <thread>
 
@@ -88,6 +90,70 @@ TEST(Concurrency, AnswersOfTheCpuBelongToTheirRevision)
   const Scenes scenes;
   CpuChecker checker(scenes.of(0));
   checkWhileTheSceneChanges(checker, scenes, 100);
+}
+
+TEST(Concurrency, ChecksOfTheCpuRunSideBySide)
+{
+  const Scenes scenes;
+  CpuChecker checker(scenes.of(1));
+  const std::vector<double> many(300'000, 0.1);
+  const double one = 0.8;
+  std::atomic<bool> is_running{false};
+  std::thread other(
+      [&]
+      {
+        is_running = true;
+        EXPECT_EQ(checker.check(many.data(), many.size()).valid.back(), 1);
+        is_running = false;
+      });
+  while (!is_running)
+    std::this_thread::yield();
+  EXPECT_EQ(checker.check(&one, 1).valid.front(), 0);
+  EXPECT_TRUE(is_running) << "the check waited for another one";
+  other.join();
+}
+
+/// So many states that proofs are made while the threads check. A check may begin with them and another one without.
+TEST(Concurrency, AnswersOfTheCpuDoNotDependOnChecksBesideThem)
+{
+  const Scenes scenes;
+  CpuChecker checker(scenes.of(1));
+  std::atomic<int> wrong{0};
+  std::atomic<bool> uses_proofs{false};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < kCheckingThreads; ++t)
+    threads.emplace_back(
+        [&, t]
+        {
+          const std::size_t count = t == 0 ? 1000 : 100;
+          std::vector<double> states;
+          for (std::size_t i = 0; i < count; ++i)
+            states.push_back((static_cast<double>(i) + 0.5) / static_cast<double>(count));
+          JointNeighbourhood around;
+          around.travel = {{0.02, 0.0}};
+          around.rows.assign(count, 0);
+          constexpr int kRepeats = 100;  // before and after the proofs are used first
+          for (int repeat = 0, left = kRepeats; left > 0 && repeat < 20'000; ++repeat)
+          {
+            if (t == 0 && repeat % 10 == 0)
+              uses_proofs = checker.report().decided.size() > 1;
+            left -= uses_proofs ? 1 : 0;
+            const bool has_margins = repeat % 2 == t % 2;
+            const BatchResult result = checker.check(states.data(), count, "", has_margins ? &around : nullptr);
+            for (std::size_t i = 0; i < count; ++i)
+            {
+              const double gap = std::max(0.7 - states[i], states[i] - 0.9);  // between the carriage and the wall
+              const double needed = has_margins ? 0.02 : 0.0;
+              // A gap of little more than the margin need not be proven.
+              if (std::abs(gap - needed) > 1e-3)
+                wrong += result.valid[i] == (gap > needed ? 1 : 0) ? 0 : 1;
+            }
+          }
+        });
+  for (std::thread& thread : threads)
+    thread.join();
+  EXPECT_EQ(wrong, 0);
+  EXPECT_TRUE(uses_proofs);
 }
 
 TEST(Concurrency, AnswersOfTheGpuBelongToTheirRevision)

@@ -250,6 +250,9 @@ TEST(BatchRrtConnect, HasItsParametersByName)
   ob::ParamSet& parameters = planning.planner->params();
   EXPECT_TRUE(parameters.setParam("range", "0.25"));
   EXPECT_TRUE(parameters.setParam("branches", "5"));
+  EXPECT_TRUE(parameters.setParam("searches", "3"));
+  EXPECT_EQ(planning.planner->getSearches(), 3U);
+  EXPECT_THROW(planning.planner->setSearches(1000), ompl::Exception);
   EXPECT_EQ(planning.planner->getRange(), 0.25);
   EXPECT_EQ(planning.planner->getBranches(), 5U);
   EXPECT_TRUE(parameters.setParam("branches", "0"));
@@ -327,6 +330,7 @@ TEST(BatchRrtConnect, RepeatsAPathForASeed)
   {
     ompl::RNG::setSeed(seed);
     Planning planning(kTwoWalls, kLeft, {kRight});
+    planning.planner->setSearches(1);
     EXPECT_EQ(planning.solve(), ob::PlannerStatus::EXACT_SOLUTION);
     return positionsOf(planning.path());
   };

@@ -9,7 +9,8 @@
 
 namespace gpu_planning_scene::core
 {
-class RrtSearch;
+class MotionValidator;
+class RrtSearches;
 
 /// RRT-Connect for a MotionValidator, which checks many motions in little more time than one motion. Two trees, from
 /// the start states and from the goal states, grow in rounds. All motions of a round are checked in one call.
@@ -20,12 +21,15 @@ class RrtSearch;
 /// If the trees meet in several places at once, the shortest path is the solution.
 /// The trees grow by motions that MotionValidator::validateCoarsely accepts. When a path is found, its motions are
 /// validated by the validator's rule. A motion that fails is removed from its tree, with everything that grew from it.
-/// Not thread-safe.
+/// If the checks of the validator run side by side (StateChecker::checksSideBySide), several searches with different
+/// random states do too, each on a thread of its own, and the first solution ends them all. Not thread-safe.
 ///
 /// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
 /// Balanced trees: S. M. LaValle: Planning Algorithms. Cambridge University Press, 2006, section 5.5.3.
 /// Many branches at once (with threads, in the paper): J. Ichnowski, R. Alterovitz: Parallel sampling-based motion
 /// planning with superlinear speedup. IROS 2012.
+/// Several searches, of which the first solution counts: I. Aguinaga, D. Borro, L. Matey: Parallel RRT-based path
+/// planning for selective disassembly planning. International Journal of Advanced Manufacturing Technology 36, 2008.
 class BatchRrtConnect : public ompl::base::Planner
 {
  public:
@@ -41,9 +45,14 @@ class BatchRrtConnect : public ompl::base::Planner
   void setBranches(unsigned int branches);
   unsigned int getBranches() const { return branches_; }
 
-  /// solve() gives up after this many rounds, whatever time they take; 0: only the time limits the search. If only the
-  /// rounds limit it, a search that fails gives the same result again with the same seed, unless the time for its last
-  /// proofs ends (see solve()).
+  /// The largest number of searches; 0: one for each core, at most 8. With more than one, the solution depends on which
+  /// search is the fastest, so equal seeds do not give equal paths. Throws ompl::Exception for more than 64.
+  void setSearches(unsigned int searches);
+  unsigned int getSearches() const { return searches_; }
+
+  /// solve() gives up after this many rounds of the first search, whatever time they take; 0: only the time limits the
+  /// search. If only the rounds limit it, a search that fails gives the same result again with the same seed, unless
+  /// the time for its last proofs ends (see solve()).
   void setMaxRounds(unsigned int rounds) { max_rounds_ = rounds; }
   unsigned int getMaxRounds() const { return max_rounds_; }
 
@@ -74,11 +83,14 @@ class BatchRrtConnect : public ompl::base::Planner
                                        const ompl::base::PlannerTerminationCondition& ptc);
   void takeMoreGoals();
 
+  std::size_t searchesOf(const MotionValidator& validator) const;
+
   double range_ = 0.0;
   unsigned int branches_ = 64;
   unsigned int max_rounds_ = 0;
   bool is_exact_only_ = false;
   double largest_length_ = std::numeric_limits<double>::infinity();
-  std::unique_ptr<RrtSearch> search_;  // everything that clear() deletes
+  unsigned int searches_ = 0;
+  std::unique_ptr<RrtSearches> search_;  // everything that clear() deletes
 };
 }  // namespace gpu_planning_scene::core

@@ -51,6 +51,7 @@ class MotionValidator : public ompl::base::MotionValidator
                                              const Termination& ptc = never()) const;
   static constexpr double kCoarser = 4.0;
   MotionRule rule() const { return motions_.rule(); }
+  bool checksSideBySide() const { return motions_.checksSideBySide(); }  ///< see StateChecker
   /// From now on, a motion that validateMotions or validatePath has found valid counts as valid again, without a check
   /// (100,000 of them at most). So the last check of a path costs nothing if its planner has proven the path. Call this
   /// only if the checker keeps its scene.

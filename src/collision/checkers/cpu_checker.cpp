@@ -3,7 +3,9 @@
 #include <chrono>
 #include <mutex>
 #include <optional>
+#include <shared_mutex>
 
+#include "collision/checkers/change_gate.h"
 #include "collision/checkers/cpu_scene.h"
 #include "collision/problem/state_validation.h"
 #include "model/seconds_since.h"
@@ -14,7 +16,7 @@ struct CpuChecker::Impl
 {
   explicit Impl(const CheckerOptions& options) : on_cpu(options) {}
 
-  std::mutex mutex;
+  ChangeGate gate;  // checks share it; setScene holds it alone
   CpuScene on_cpu;
 };
 
@@ -28,7 +30,7 @@ CpuChecker::~CpuChecker() = default;
 
 void CpuChecker::setScene(std::shared_ptr<const PlanningScene> scene)
 {
-  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  const std::lock_guard<ChangeGate> lock(impl_->gate);
   impl_->on_cpu.setScene(std::move(scene));
   impl_->on_cpu.prepare("");
 }
@@ -36,7 +38,7 @@ void CpuChecker::setScene(std::shared_ptr<const PlanningScene> scene)
 BatchResult CpuChecker::check(const double* states, std::size_t count, const std::string& group,
                               const JointNeighbourhood* around)
 {
-  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  const std::shared_lock<ChangeGate> lock(impl_->gate);
   validateStates(*impl_->on_cpu.scene()->robot, states, count);
   impl_->on_cpu.prepare(group);
   BatchResult result;
@@ -52,7 +54,7 @@ BatchResult CpuChecker::check(const double* states, std::size_t count, const std
 
 SceneReport CpuChecker::report(const std::string& group)
 {
-  const std::lock_guard<std::mutex> lock(impl_->mutex);
+  const std::shared_lock<ChangeGate> lock(impl_->gate);
   return impl_->on_cpu.report(group);
 }
 

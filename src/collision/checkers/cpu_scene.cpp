@@ -32,16 +32,56 @@ constexpr std::size_t kStatesBeforeCachedProofs = 1000;
 constexpr std::size_t kStatesBeforeLanes = 16;
 }  // namespace
 
+/// The work space of one check. Its end gives the work space back, also after an exception.
+class CpuScene::ScratchLoan
+{
+ public:
+  explicit ScratchLoan(std::mutex& mutex) : mutex_(mutex) {}
+  ~ScratchLoan()
+  {
+    if (!scratch_)
+      return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    group_->scratches.push_back(std::move(scratch_));
+  }
+  ScratchLoan(const ScratchLoan&) = delete;
+  ScratchLoan& operator=(const ScratchLoan&) = delete;
+
+  /// The caller holds the mutex.
+  void take(Group& group, const RobotModel& robot)
+  {
+    if (group.scratches.empty())
+    {
+      group.scratches.reserve(++group.scratch_count);  // so that giving it back needs no memory
+      scratch_ = std::make_unique<Scratch>(group.decisions);
+      scratch_->poses.resize(robot.links().size());
+    }
+    else
+    {
+      scratch_ = std::move(group.scratches.back());
+      group.scratches.pop_back();
+    }
+    group_ = &group;
+  }
+
+  Scratch& operator*() const { return *scratch_; }
+
+ private:
+  std::mutex& mutex_;
+  Group* group_ = nullptr;
+  std::unique_ptr<Scratch> scratch_;
+};
+
 CpuScene::CpuScene(const CheckerOptions& options) : options_(options), maker_(options) {}
 
 void CpuScene::setScene(std::shared_ptr<const PlanningScene> scene)
 {
   requireRobot(scene);
+  const std::lock_guard<std::mutex> lock(mutex_);
   Group whole;
   whole.problem = std::make_shared<const CollisionProblem>(maker_.make(*scene, "", &whole.report));
   scene_ = std::move(scene);
   groups_.clear();
-  whole.scratch.poses.resize(scene_->robot->links().size());
   groups_.emplace("", std::move(whole));
 }
 
@@ -52,13 +92,19 @@ CpuScene::Group& CpuScene::groupOf(const std::string& group)
     return known->second;
   Group made;
   made.problem = std::make_shared<const CollisionProblem>(maker_.make(*scene_, group, &made.report));
-  made.scratch.poses.resize(scene_->robot->links().size());
   return groups_.emplace(group, std::move(made)).first->second;
 }
 
-/// Samples states here and not in setScene, because most scenes are checked without a report.
-const SceneReport& CpuScene::report(const std::string& name)
+const std::shared_ptr<const CollisionProblem>& CpuScene::problem(const std::string& group)
 {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return groupOf(group).problem;
+}
+
+/// Samples states here and not in setScene, because most scenes are checked without a report.
+SceneReport CpuScene::report(const std::string& name)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
   Group& group = groupOf(name);
   if (!group.is_sampled)
   {
@@ -69,10 +115,19 @@ const SceneReport& CpuScene::report(const std::string& name)
     std::sort(pairs.begin(), pairs.end());
     group.is_sampled = true;
   }
-  group.scratch.lanes.tally.flush();
-  group.scratch.near_lanes.tally.flush();
+  for (const std::unique_ptr<Scratch>& scratch : group.scratches)
+  {
+    scratch->lanes.tally.flush();
+    scratch->near_lanes.tally.flush();
+  }
   group.report.decided = group.decisions->report(group.checked);
   return group.report;
+}
+
+void CpuScene::prepare(const std::string& group)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  prepare(groupOf(group));
 }
 
 void CpuScene::prepare(Group& group)
@@ -104,6 +159,7 @@ ProofStage CpuScene::proofStage(Group& group) const
 
 ProofStage CpuScene::proofStage(const std::string& name)
 {
+  const std::lock_guard<std::mutex> lock(mutex_);
   Group& group = groupOf(name);
   // Without proofs in sight, the trees of the CPU are not needed yet.
   if (group.problem->always_colliding || (!group.within && checked_ <= kStatesBeforeProofs))
@@ -114,11 +170,15 @@ ProofStage CpuScene::proofStage(const std::string& name)
 
 std::shared_ptr<const RobotProofs> CpuScene::proofs(const std::string& name)
 {
-  return proofStage(name) == ProofStage::None ? nullptr : groupOf(name).lanes->proofs();
+  if (proofStage(name) == ProofStage::None)
+    return nullptr;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return groupOf(name).lanes->proofs();
 }
 
 void CpuScene::countStates(std::size_t count, const std::string& name)
 {
+  const std::lock_guard<std::mutex> lock(mutex_);
   checked_ += count;
   loadProofs(groupOf(name), count);
 }
@@ -159,7 +219,7 @@ void CpuScene::checkBlock(const double* states, std::size_t begin, std::size_t e
   bool is_taken = by_lanes && end - begin > 1;
   for (std::size_t i = begin; i < end && is_taken; ++i)
     is_taken = (margins ? margins->within[i] != 0 : isValidFor(*group.problem, states + i * width)) &&
-               group.lanes->takes(states + i * width);
+               LaneChecker::takes(states + i * width, margins ? scratch.near_lanes : scratch.lanes);
   if (is_taken && margins)
   {
     std::array<const double*, lanes::kLanes> rows;
@@ -177,50 +237,76 @@ Margins CpuScene::margins(const JointNeighbourhood& around, const double* states
                           const std::string& name)
 {
   validateNeighbourhood(*scene_->robot, around, count);
-  Group& group = groupOf(name);
-  if (!group.displacements)
-    group.displacements = std::make_unique<const DisplacementBounds>(scene_->robot, *group.problem, levers_);
-  return group.displacements->margins(around, states, count);
+  const DisplacementBounds* bounds = nullptr;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    Group& group = groupOf(name);
+    if (!group.displacements)
+      group.displacements = std::make_unique<const DisplacementBounds>(scene_->robot, *group.problem, levers_);
+    bounds = group.displacements.get();
+  }
+  return bounds->margins(around, states, count);
+}
+
+/// Counts the states of a slice. Returns true if the lane checker takes it; its proofs are then ready in the scratch.
+bool CpuScene::countSlice(std::size_t count, Group& group, Scratch& scratch, bool has_margins)
+{
+  checked_ += count;
+  group.checked += count;
+  // A single state does not go to the lanes.
+  if (count <= 1 || group.checked <= kStatesBeforeLanes || proofStage(group) == ProofStage::None)
+    return false;
+  group.lanes->useProofs(has_margins ? scratch.near_lanes : scratch.lanes);
+  return true;
 }
 
 void CpuScene::check(const double* states, std::size_t count, const std::string& name, BatchResult& result,
                      const Margins* margins)
 {
-  Group& group = groupOf(name);
-  if (group.problem->always_colliding)
+  ScratchLoan loan(mutex_);
+  Group* used = nullptr;
+  bool by_lanes = false;
   {
-    result.valid.assign(count, 0);
-    result.colliding.assign(count, *group.problem->always_colliding);
-    return;
+    const std::lock_guard<std::mutex> lock(mutex_);
+    Group& group = groupOf(name);
+    if (group.problem->always_colliding)
+    {
+      result.valid.assign(count, 0);
+      result.colliding.assign(count, *group.problem->always_colliding);
+      return;
+    }
+    prepare(group);
+    const std::size_t width = scene_->robot->variables().size();
+    for (std::size_t i = 0; i < count && !margins && !group.outside; ++i)
+      if (!isValidFor(*group.problem, states + i * width))
+        prepareOutside(name, group);
+    loan.take(group, *scene_->robot);
+    by_lanes = countSlice(std::min(kStatesPerSlice, count), group, *loan, margins != nullptr);
+    used = &group;
   }
   result.valid.assign(count, 1);
   result.colliding.assign(count, kNoPair);
-  prepare(group);
-  const std::size_t width = scene_->robot->variables().size();
-  for (std::size_t i = 0; i < count && !margins && !group.outside; ++i)
-    if (!isValidFor(*group.problem, states + i * width))
-      prepareOutside(name, group);
-  const auto check_range = [&](std::size_t begin, std::size_t end, bool by_lanes, Scratch& scratch)
+  const auto check_range = [&](std::size_t begin, std::size_t end, Scratch& scratch)
   {
     for (std::size_t i = begin; i < end; i += lanes::kLanes)
-      checkBlock(states, i, std::min<std::size_t>(i + lanes::kLanes, end), group, margins, by_lanes, scratch, result);
+      checkBlock(states, i, std::min<std::size_t>(i + lanes::kLanes, end), *used, margins, by_lanes, scratch, result);
   };
   for (std::size_t begin = 0; begin < count; begin += kStatesPerSlice)
   {
     const std::size_t size = std::min(kStatesPerSlice, count - begin);
-    checked_ += size;
-    group.checked += size;
-    // A single state does not go to the lanes.
-    const bool by_lanes = size > 1 && group.checked > kStatesBeforeLanes && proofStage(group) != ProofStage::None;
-    if (by_lanes)
-      group.lanes->useProofs();
+    if (begin != 0)
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      by_lanes = countSlice(size, *used, *loan, margins != nullptr);
+    }
     if (size <= kFewStates)
-      check_range(begin, begin + size, by_lanes, group.scratch);
+      check_range(begin, begin + size, *loan);
     else
       parallelFor(size, kStatesPerChunk,
-                  [&, scratch = group.scratch](std::size_t first, std::size_t last) mutable
-                  { check_range(begin + first, begin + last, by_lanes, scratch); });
+                  [&, scratch = *loan](std::size_t first, std::size_t last) mutable
+                  { check_range(begin + first, begin + last, scratch); });
   }
-  loadProofs(group, count);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  loadProofs(*used, count);
 }
 }  // namespace gpu_planning_scene::core

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ namespace gpu_planning_scene::core
 constexpr std::size_t kStatesBeforeProofs = 20'000;
 
 /// The collision problems of a scene, one per group, and their checks on the CPU. A problem is made when it is first
-/// needed. Trees are kept for the next scene with the same shapes. One caller at a time.
+/// needed. Trees are kept for the next scene with the same shapes. Thread-safe, and checks run side by side. Exception:
+/// no other call may run during setScene.
 class CpuScene
 {
  public:
@@ -30,14 +32,14 @@ class CpuScene
   const std::shared_ptr<const PlanningScene>& scene() const { return scene_; }
 
   /// This and the functions below throw Error for an unknown group.
-  const SceneReport& report(const std::string& group);
-  const std::shared_ptr<const CollisionProblem>& problem(const std::string& group) { return groupOf(group).problem; }
+  SceneReport report(const std::string& group);
+  const std::shared_ptr<const CollisionProblem>& problem(const std::string& group);
 
   /// The trees of the CPU's traversals.
   const std::shared_ptr<ForestCache>& trees() const { return forest_; }
 
   /// Prepares the group, so that the first call of `check` need not do so.
-  void prepare(const std::string& group) { prepare(groupOf(group)); }
+  void prepare(const std::string& group);
 
   /// The proofs with which `check` decides most states of the group. Requests them once enough states have been
   /// checked.
@@ -87,14 +89,19 @@ class CpuScene
     std::unique_ptr<const DisplacementBounds> displacements;
     std::uint64_t checked = 0;  // states
     std::shared_ptr<DecisionTotals> decisions = std::make_shared<DecisionTotals>();
-    Scratch scratch{decisions};
+    std::vector<std::unique_ptr<Scratch>> scratches;  // that no check uses now; the last one was used last
+    std::size_t scratch_count = 0;                    // with those that checks use
   };
+  class ScratchLoan;
 
+  // The caller of these functions holds mutex_.
   Group& groupOf(const std::string& group);
   void prepare(Group& group);
   ProofStage proofStage(Group& group) const;
   void loadProofs(Group& group, std::size_t count) const;
   void prepareOutside(const std::string& name, Group& group);
+  bool countSlice(std::size_t count, Group& group, Scratch& scratch, bool has_margins);
+
   void checkBlock(const double* states, std::size_t begin, std::size_t end, const Group& group, const Margins* margins,
                   bool by_lanes, Scratch& scratch, BatchResult& result) const;
   void checkRow(const double* state, std::size_t row, const Group& group, const Margins* margins, Scratch& scratch,
@@ -104,6 +111,7 @@ class CpuScene
   ProblemMaker maker_;
   JointLevers levers_;
   std::shared_ptr<const PlanningScene> scene_;
+  std::mutex mutex_;  // of the members below, and of their changes; checks read a prepared group without it
   std::map<std::string, Group> groups_;
   std::size_t checked_ = 0;  // states, of all scenes
   std::shared_ptr<ForestCache> forest_ = std::make_shared<ForestCache>();

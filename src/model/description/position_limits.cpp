@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <urdf_model/model.h>
 
@@ -55,6 +56,18 @@ std::string whyWithoutLimits(const Owner& owner)
     return "is continuous; make it revolute in the URDF to limit it";
   if ((joint.type == JointType::Planar && owner.part == 2) || (joint.type == JointType::Floating && owner.part > 2))
     return "is a rotation of a planar or floating joint";
+  return "";
+}
+
+/// A warning if an angle of more than two turns is a limit of a revolute joint; else empty.
+std::string mayBeInDegrees(const PositionLimits& limits, const Joint& joint)
+{
+  constexpr double kTwoTurns = 4.0 * M_PI;
+  for (const std::optional<double>& limit : {limits.min_position, limits.max_position})
+    if (joint.type == JointType::Revolute && limit && std::abs(*limit) > kTwoTurns)
+      return limits.source + ": a position limit of '" + limits.variable + "' is " + numberText(*limit) +
+             " rad, more than two turns; " + numberText(*limit) + " degrees are " + numberText(*limit * M_PI / 180.0) +
+             " rad";
   return "";
 }
 
@@ -136,6 +149,8 @@ void applyPositionLimits(const std::vector<PositionLimits>& limits, RobotTree& t
                          reason);
     else
     {
+      if (std::string degrees = mayBeInDegrees(entry, *owner.joint); !degrees.empty())
+        warnings.push_back(std::move(degrees));
       const int variable = owner.joint->first_variable + owner.part;
       if (setLimits(entry, tree.variables[static_cast<std::size_t>(variable)]))
         tree.widened.push_back(variable);

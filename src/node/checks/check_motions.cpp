@@ -42,7 +42,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
             requestedMotions({request.motion_rule, request.resolution, request.translation_resolution, "motion"}, robot,
                              starts.data(), ends.data(), count, options_);
         const MotionRule motion_rule = job.motions->rule;
-        const std::string assumed_base = now.assumedBase(scene.is_changed ? std::vector<int>() : job.columns);
+        const std::string assumed_base = now.assumedBase(scene.depends_on_state ? std::vector<int>() : job.columns);
         const auto name_of = [](std::size_t row) { return "motion " + std::to_string(row); };
         for (const auto& [full, rows] : {std::tie(starts, given.starts), std::tie(ends, given.ends)})
           if (response.message.empty())
@@ -50,7 +50,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
                                                                 : outsideLimits(robot, job.columns, rows, name_of);
         const bool are_within = response.message.empty();
         for (const std::vector<double>* rows : {&given.starts, &given.ends})
-          if (const auto turned = findTurnedBase(robot, job.columns, rows->data(), count);
+          if (const auto turned = findManyTurns(robot, job.columns, rows->data(), count);
               turned && response.message.empty())
             response.message = name_of(turned->row) + ": " + turned->text;
         // The full states above serve to count the samples. For the check, the variables that the request does not name

@@ -103,17 +103,16 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         if (!is_of_current_state)
           requireVariableOfGroup(robot, request.group, job.columns);
         const std::size_t count = job.states.size() / job.columns.size();
-        auto outside = findValueOutsideLimits(robot, job.columns, job.states.data(), count);
-        if (!outside && !is_of_current_state)
-          outside = findTurnedBase(robot, job.columns, job.states.data(), count);
-        if (outside)
+        // The yaw of a current state may be that of odometry, of any number of turns.
+        const auto find = is_of_current_state ? findValueOutsideLimits : findDoubtfulValue;
+        if (const auto outside = find(robot, job.columns, job.states.data(), count))
         {
           response.message = shortLine("state " + std::to_string(outside->row) + ": " + outside->text);
           static OccasionalWarning warning;
           warning.log("check_states: " + response.message);
         }
         addWarnings(scene.warnings, response.message);
-        addWarning(now.assumedBase(scene.is_changed ? std::vector<int>() : set_by_request), response.message);
+        addWarning(now.assumedBase(scene.depends_on_state ? std::vector<int>() : set_by_request), response.message);
         job.matrix = scene.matrix;
         if (scene.is_changed || is_of_current_state || wanted)
           job.scene = scene.now;

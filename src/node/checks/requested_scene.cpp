@@ -1,11 +1,13 @@
 #include "node/checks/requested_scene.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "gpu_planning_scene/error.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/requested_changes.h"
 #include "scene/changes/matrix_entries.h"
+#include "scene/changes/state_dependence.h"
 
 namespace gpu_planning_scene::core
 {
@@ -21,6 +23,9 @@ RequestedScene requestedScene(const SceneStore& store, const SceneStore::Lookup&
   requested.is_changed = !changes.empty();
   SceneStore::Preview preview = store.preview(changes, lookup, from);
   requested.now = std::move(preview.snapshot);
+  requested.depends_on_state = std::any_of(changes.begin(), changes.end(),
+                                           [&requested](const SceneChange& change)
+                                           { return dependsOnRobotState(*requested.now.scene, change); });
   requested.warnings.insert(requested.warnings.end(), preview.warnings.begin(), preview.warnings.end());
   if (isEmpty(matrix))
     return requested;

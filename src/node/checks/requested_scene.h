@@ -15,6 +15,7 @@ struct RequestedScene
 {
   Snapshot now;
   bool is_changed = false;                               ///< the request changes the scene for itself
+  bool depends_on_state = false;                         ///< these changes place objects by the robot's state in `now`
   std::shared_ptr<const AllowedCollisionMatrix> matrix;  ///< of the request; null if it has none
   std::vector<std::string> warnings;
 };

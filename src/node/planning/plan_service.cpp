@@ -188,7 +188,7 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
   std::vector<std::vector<double>> rows = query.goals;
   rows.push_back(query.start);
   for (const std::vector<double>& row : rows)
-    if (const auto turned = findTurnedBase(*now.scene->robot, columns, row.data(), 1))
+    if (const auto turned = findManyTurns(*now.scene->robot, columns, row.data(), 1))
     {
       warnings.push_back(turned->text);
       break;

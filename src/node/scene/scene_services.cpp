@@ -12,6 +12,7 @@
 #include "node/messages/exact_numbers.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/to_messages.h"
+#include "scene/changes/state_dependence.h"
 
 namespace gpu_planning_scene::core
 {
@@ -27,15 +28,6 @@ bool takesMemory(const SceneChange& change)
          !change.solids.empty() || std::any_of(change.objects.begin(), change.objects.end(), brings) ||
          std::any_of(attached.begin(), attached.end(),
                      [&brings](const AttachedChange& candidate) { return brings(candidate.object); });
-}
-
-/// Whether the change places an object relative to a link, so that it depends on the robot's state.
-bool needsLinkPoses(const SceneChange& change, const RobotModel& robot)
-{
-  // The frame may also be an attached object or its subframe.
-  const auto may_move = [&robot](const ObjectChange& object)
-  { return !object.frame.name.empty() && object.frame.name != robot.planningFrame(); };
-  return !change.state.attached.empty() || std::any_of(change.objects.begin(), change.objects.end(), may_move);
 }
 
 /// All warnings of a change, in one line.
@@ -60,7 +52,7 @@ SceneStore::Applied SceneServices::apply(const SceneChange& change, const SceneS
     memory_.require();
   SceneStore::Applied applied = store_.apply(change, lookup);
   const Snapshot now = store_.snapshot();
-  if (const std::string warning = now.assumedBase({}); !warning.empty() && needsLinkPoses(change, *now.scene->robot))
+  if (const std::string warning = now.assumedBase({}); !warning.empty() && dependsOnRobotState(*now.scene, change))
     applied.warnings.push_back(warning);
   return applied;
 }

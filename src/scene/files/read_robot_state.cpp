@@ -195,7 +195,7 @@ std::vector<double> readRobotState(const YamlValue& value, SceneReader& reader)
       missing.push_back(reader.robot.variables()[i].name);
   if (!missing.empty())
     reader.warn(start + "joints without a value get their default: " + nameList(missing));
-  if (const auto outside = findValueOutsideLimits(reader.robot, columns, values.data(), 1))
+  if (const auto outside = findDoubtfulValue(reader.robot, columns, values.data(), 1))
     reader.warn(start + outside->text);
   return state.values;
 }

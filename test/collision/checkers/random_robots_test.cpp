@@ -504,9 +504,9 @@ TEST_P(ProofsOfRandomRobots, GiveTheVerdictsOfTheExactChecker)
   EXPECT_EQ(checker.requestProofs(), ProofStage::None);
   waitForProofs();
   ASSERT_EQ(checker.requestProofs(), ProofStage::All);
-  checker.useProofs();
   const std::vector<double> states = randomStates(robot);
   LaneChecker::Scratch scratch;
+  checker.useProofs(scratch);
   CpuTraversal::Scratch exact_scratch;
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   std::size_t free = 0;
@@ -519,7 +519,7 @@ TEST_P(ProofsOfRandomRobots, GiveTheVerdictsOfTheExactChecker)
     checker.check(block, lanes::kLanes, 0, nullptr, scratch, result);
     for (std::size_t lane = 0; lane < lanes::kLanes; ++lane)
     {
-      ASSERT_TRUE(isValidFor(*problem, block + lane * width) && checker.takes(block + lane * width));
+      ASSERT_TRUE(isValidFor(*problem, block + lane * width) && LaneChecker::takes(block + lane * width, scratch));
       robot.linkPoses(block + lane * width, poses.data());
       const std::vector<BodyPair> colliding = exact->allCollisions(poses.data(), exact_scratch);
       ASSERT_EQ(result.valid[lane] != 0, colliding.empty()) << "seed " << GetParam() << ", state " << i + lane;

@@ -35,18 +35,15 @@ ProofStage LaneChecker::requestProofs()
   return !proofs ? ProofStage::None : proofs->has_all_tables ? ProofStage::All : ProofStage::Covers;
 }
 
-void LaneChecker::useProofs()
+/// Clears the scratch's records and trials if they belong to other proofs: with new tables, the pairs have other
+/// numbers.
+void LaneChecker::useProofs(Scratch& scratch)
 {
-  const std::shared_ptr<const RobotProofs> proofs = job_->proofs();
-  if (proofs == proofs_)
-    return;
-  scene_ = std::make_shared<const LaneScene>(*robot_, *problem_, *forest_, proofs);
-  proofs_ = proofs;
-}
-
-/// Clears the records and trials if they belong to other proofs: with new tables, the pairs have other numbers.
-void LaneChecker::useScene(Scratch& scratch) const
-{
+  if (const std::shared_ptr<const RobotProofs> proofs = job_->proofs(); proofs != proofs_)
+  {
+    scene_ = std::make_shared<const LaneScene>(*robot_, *problem_, *forest_, proofs);
+    proofs_ = proofs;
+  }
   if (scratch.scene == scene_)
     return;
   scratch.scene = scene_;
@@ -63,7 +60,8 @@ const float* LaneChecker::kernelMargins(const double* const* margins, std::size_
   scratch.margins.resize(rows * lanes::kLanes);
   for (std::size_t i = 0; i < rows; ++i)
   {
-    const std::size_t place = i < bodies ? i : bodies + scene_->selfPairOf(static_cast<std::uint32_t>(i - bodies));
+    const std::size_t place =
+        i < bodies ? i : bodies + scratch.scene->selfPairOf(static_cast<std::uint32_t>(i - bodies));
     for (std::size_t lane = 0; lane < lanes::kLanes; ++lane)
       scratch.margins[i * lanes::kLanes + lane] = lanes::kernelMargin(margins[std::min(lane, count - 1)][place]);
   }
@@ -71,13 +69,13 @@ const float* LaneChecker::kernelMargins(const double* const* margins, std::size_
 }
 
 /// The margin of a pair of the kernel.
-double LaneChecker::marginOf(std::uint32_t pair, const double* margins) const
+double LaneChecker::marginOf(std::uint32_t pair, const double* margins, const LaneScene& scene) const
 {
   if (!margins)
     return 0.0;
-  const InstancePair& instances = scene_->instancesOf(pair);
+  const InstancePair& instances = scene.instancesOf(pair);
   const std::size_t bodies = problem_->robot.size();
-  return margins[instances[1] < bodies ? bodies + scene_->selfPairOf(pair) : instances[0]];
+  return margins[instances[1] < bodies ? bodies + scene.selfPairOf(pair) : instances[0]];
 }
 
 std::optional<BodyPair> LaneChecker::decideOpenPairs(const double* state, std::uint32_t* open, std::size_t open_count,
@@ -90,8 +88,8 @@ std::optional<BodyPair> LaneChecker::decideOpenPairs(const double* state, std::u
   scratch.known.assign(robot_->links().size(), 0);
   for (std::size_t k = 0; k < open_count; ++k)
   {
-    const InstancePair& instances = scene_->instancesOf(open[k]);
-    scratch.pairs.push_back({instances, marginOf(open[k], margins)});
+    const InstancePair& instances = scratch.scene->instancesOf(open[k]);
+    scratch.pairs.push_back({instances, marginOf(open[k], margins, *scratch.scene)});
     for (const std::uint32_t instance : instances)
       if (instance < problem_->robot.size())
         robot_->computeLinkPose(state, problem_->robot[instance].link, scratch.poses.data(), scratch.known.data());
@@ -109,12 +107,12 @@ void LaneChecker::check(const double* states, std::size_t count, std::size_t row
                         Scratch& scratch, BatchResult& result) const
 {
   const std::size_t width = robot_->variables().size();
-  useScene(scratch);
-  const lanes::Scratch kernel_scratch = scratch.buffers.of(*scene_);
+  const LaneScene& scene = *scratch.scene;
+  const lanes::Scratch kernel_scratch = scratch.buffers.of(scene);
   scratch.poses.resize(robot_->links().size());
   lanes::Block block;
   scratch.tally.begin(block);
-  kernel_(scene_->model(), states, static_cast<int>(count), kernelMargins(margins, count, scratch), kernel_scratch,
+  kernel_(scene.model(), states, static_cast<int>(count), kernelMargins(margins, count, scratch), kernel_scratch,
           block);
   const std::uint64_t begin = block.clock ? block.clock() : 0;
   for (std::size_t lane = 0; lane < count; ++lane)
@@ -123,9 +121,9 @@ void LaneChecker::check(const double* states, std::size_t count, std::size_t row
     const double* const margins_of_state = margins ? margins[lane] : nullptr;
     std::optional<BodyPair> pair;
     if (block.proof[lane] == Proof::Colliding)
-      pair = bodiesOf(*problem_, scene_->instancesOf(block.pair[lane]));
+      pair = bodiesOf(*problem_, scene.instancesOf(block.pair[lane]));
     else if (block.proof[lane] == Proof::None)
-      pair = decideOpenPairs(state, kernel_scratch.open + lane * scene_->pairCount(),
+      pair = decideOpenPairs(state, kernel_scratch.open + lane * scene.pairCount(),
                              static_cast<std::size_t>(block.open_count[lane]), margins_of_state, scratch);
     if (pair)
     {

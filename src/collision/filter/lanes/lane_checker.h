@@ -59,12 +59,12 @@ class LaneChecker
   /// The newest proofs; null: none, or not requested. One caller at a time.
   std::shared_ptr<const RobotProofs> proofs() const { return job_ ? job_->proofs() : nullptr; }
 
-  /// From now on, `check` uses the newest proofs. Must be called before the first `check`, after `requestProofs` has
-  /// returned another stage than None. One caller at a time.
-  void useProofs();
+  /// From now on, `check` uses the newest proofs with this scratch. Must be called before the first `check` with it,
+  /// after `requestProofs` has returned another stage than None. One caller at a time.
+  void useProofs(Scratch& scratch);
 
   /// Whether `check` may be called for a state.
-  bool takes(const double* state) const { return scene_->isWithinBounds(state); }
+  static bool takes(const double* state, const Scratch& scratch) { return scratch.scene->isWithinBounds(state); }
 
   /// Checks `count` states (1 to lanes::kLanes rows) and sets rows `row` and following of `result`, which must be
   /// initialised as free. `margins`: of each state, see CpuTraversal::firstCollision; null: no margins. The problem
@@ -74,9 +74,8 @@ class LaneChecker
              BatchResult& result) const;
 
  private:
-  void useScene(Scratch& scratch) const;
   const float* kernelMargins(const double* const* margins, std::size_t count, Scratch& scratch) const;
-  double marginOf(std::uint32_t pair, const double* margins) const;
+  double marginOf(std::uint32_t pair, const double* margins, const LaneScene& scene) const;
   std::optional<BodyPair> decideOpenPairs(const double* state, std::uint32_t* open, std::size_t open_count,
                                           const double* margins, Scratch& scratch) const;
 
@@ -86,7 +85,7 @@ class LaneChecker
   const CpuTraversal& traversal_;
   std::shared_ptr<ProofJob> job_;  // null before the first call of requestProofs
   std::shared_ptr<const RobotProofs> proofs_;
-  std::shared_ptr<const LaneScene> scene_;  // made with proofs_; null before the first call of useProofs
+  std::shared_ptr<const LaneScene> scene_;  // made with proofs_
   lanes::Kernel kernel_;
 };
 }  // namespace gpu_planning_scene::core

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "gpu_planning_scene/scene_change.h"
+
+namespace gpu_planning_scene::core
+{
+/// Whether a change places an object where the robot's state puts it: it attaches or detaches objects, or gives the
+/// pose of an object in the frame of a link or of an attached object. `scene`: the scene after the change.
+bool dependsOnRobotState(const PlanningScene& scene, const SceneChange& change);
+}  // namespace gpu_planning_scene::core
