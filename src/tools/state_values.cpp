@@ -22,7 +22,7 @@ std::string setValues(const RobotModel& robot, const std::string& text, bool has
   if (text.empty())
     throw UsageError("--state: the text is empty; give NAME=VALUE or the name of a state of the SRDF");
   std::set<int> columns;
-  std::set<int> named;  // by NAME=VALUE
+  std::set<int> assigned;  // by NAME=VALUE
   std::istringstream words(text);
   for (std::string word; std::getline(words, word, ',');)
   {
@@ -38,7 +38,7 @@ std::string setValues(const RobotModel& robot, const std::string& text, bool has
         continue;
       }
       const int variable = variableIndices(robot, {word.substr(0, equals)}).front();
-      if (!named.insert(variable).second)
+      if (!assigned.insert(variable).second)
         throw Error("variable '" + word.substr(0, equals) + "' is given twice");
       state[static_cast<std::size_t>(variable)] = numbersFrom("--state", word.substr(equals + 1), 1)[0];
       columns.insert(variable);

@@ -65,6 +65,19 @@ TEST_F(JointLimits, DegreesAreSuggestedAlsoIfTheFirstValueIsSmall)
 }
 
 /// Robots on a map, for example with UTM coordinates, may be far from the origin of their planning frame.
+TEST_F(JointLimits, AWholeNumberOfManyTurnsOfAContinuousJointMayBeInDegrees)
+{
+  const std::vector<int> pan = {robot->variableIndex("pan")};
+  for (const double measured : {6.0, -6.28, 90.25, 1234.5678})
+    EXPECT_FALSE(findManyTurns(*robot, pan, &measured, 1)) << measured;
+  const std::vector<double> typed = {0.0, 90.0};
+  const auto found = findManyTurns(*robot, pan, typed.data(), 2);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->row, 1u);
+  EXPECT_EQ(found->text, "joint 'pan' is 90 rad, more than one turn; 90 degrees are 1.5708 rad");
+  EXPECT_EQ(findDoubtfulValue(*robot, pan, typed.data(), 2)->text, found->text);
+}
+
 TEST(FarTranslations, AreNamedBecauseAnswersAreNotExactThere)
 {
   const auto robot = robotOf(boxLink("base"),

@@ -5,6 +5,7 @@
 
 #include "model/model_testing.h"
 #include "model/robot_text.h"
+#include "model/text/number_text.h"
 
 namespace gpu_planning_scene::core
 {
@@ -202,6 +203,19 @@ TEST(PositionLimits, LimitTranslationsOfAPlanarJointAndNotItsRotation)
                 [&] {
                   limited({{"drive", 2.0, 3.0, "limits.yaml"}}, nullptr, srdf);
                 }));
+}
+
+TEST(PositionLimits, OfMoreThanTwoTurnsMayBeInDegrees)
+{
+  std::vector<std::string> warnings;
+  limited({{"elbow", -150.0, 150.0, "limits.yaml"}, {"slide", -150.0, 150.0, "limits.yaml"}}, &warnings);
+  ASSERT_EQ(1U, warnings.size());
+  EXPECT_EQ("limits.yaml: a position limit of 'elbow' is -150 rad, more than two turns; -150 degrees are " +
+                numberText(-150.0 * M_PI / 180.0) + " rad",
+            warnings[0]);
+  warnings.clear();
+  limited({{"elbow", -4.0 * M_PI, 4.0 * M_PI, "limits.yaml"}}, &warnings);
+  EXPECT_TRUE(warnings.empty());
 }
 
 TEST(PositionLimits, ThatCanHaveNoEffectGiveAWarning)

@@ -773,6 +773,39 @@ TEST_F(UnknownBase, IsAssumedAtTheOriginAndEachAnswerSaysSo)
   EXPECT_EQ("", messageOf(joints));
 }
 
+/// Even if the request changes the scene for itself, unless it places an object by the robot's pose.
+TEST_F(UnknownBase, IsNotMentionedIfTheRequestGivesThePose)
+{
+  CheckStates::Request states = request({"turn", "slide", "floor/x", "floor/y", "floor/theta"}, {0.5, 0, 1, 2, 0});
+  states.scene_diff.is_diff = states.scene_diff.robot_state.is_diff = 1;
+  states.scene_diff.link_padding.resize(1);
+  states.scene_diff.link_padding[0].link_name = "rail";
+  EXPECT_EQ("", messageOf(states));
+
+  CollisionObject box;
+  box.id = "box";
+  box.operation = CollisionObject::ADD;
+  box.primitives.resize(1);
+  box.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
+  box.primitives[0].dimensions.assign(3, 0.1);
+  box.pose.position.z = 9.0;
+  box.pose.orientation.w = 1.0;
+  const auto message_in = [&](const std::string& frame)
+  {
+    box.header.frame_id = frame;
+    states.scene_diff.world.collision_objects = {box};
+    return messageOf(states);
+  };
+  EXPECT_EQ("", message_in(store.snapshot().scene->robot->planningFrame()));
+  EXPECT_NE(std::string::npos, message_in("rail").find("assumed at the origin of frame"));
+
+  SceneChange on_table;
+  on_table.is_diff = true;
+  on_table.objects.push_back({Operation::Add, "table", {}, {}, {{Box{{1.0, 1.0, 0.1}}}}, {}, {}, {}});
+  store.apply(on_table, {});
+  EXPECT_EQ("", message_in("table"));
+}
+
 TEST_F(UnknownBase, IsThatOfTfWhereARequestGivesOnlyTheOtherJoints)
 {
   const auto source = [](std::int64_t) { return AssumedBase{{1.0, 0.0, 0.0}, ""}; };
