@@ -58,7 +58,8 @@ struct JointNeighbourhood
   /// Empty, or one state for each row of `travel`, near the states with this row. Then more neighbourhoods can be
   /// proven free, because it shows how far the robot's bodies are from the joints' axes.
   std::vector<double> centers = {};
-  /// In the states of a row, no joint differs from the row's centre by more than this number times its travel.
+  /// In the states of a row, no joint differs from the row's centre by more than this number times its travel. This is
+  /// not verified: with a wrong centre, answers are wrong.
   double spread = 0.0;
 };
 

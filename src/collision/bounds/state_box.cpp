@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-// The distance of a body from a joint's axis depends only on the joints between the axis and the body. It is known in
-// the centre of the box. On the way from there to any state of the box, these joints change it by at most what they
-// move the body, and this sum has the same form as the bound itself. So the sum is built from the body's joint upwards.
-// Own method.
+// A body's distance from a joint's axis depends only on the joints between the two. In the centre of the box it is
+// computed. Elsewhere in the box it is larger by at most the length by which these joints move the body on the way from
+// the centre. This length is the bound itself for fewer joints, so the bound is built from the body upwards. Own
+// method.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -49,20 +49,20 @@ double StateBox::armOf(const LeverChain& chain, const LeverChain::Step& step, do
 void StateBox::sumSteps(const LeverChain& chain, double* sums) const
 {
   double beyond = has_center_ && !chain.balls.empty() ? 0.0 : kUnboundedArm;
-  *sums = 0.0;
-  for (const LeverChain::Step& step : chain.steps)
+  sums[0] = 0.0;
+  for (std::size_t i = 0; i < chain.steps.size(); ++i)
   {
-    double sum = *sums;
+    const LeverChain::Step& step = chain.steps[i];
+    double displacement = 0.0;
     if (step.type != JointType::Fixed)
     {
       const JointTravel& travel = travel_[step.joint];
-      double moved = travel.length;
+      displacement = travel.length;
       if (travel.angle != 0.0)  // zero times an infinite arm is no number, and an arm that is not needed takes time
-        moved += armOf(chain, step, beyond) * travel.angle;
-      sum += moved;
-      beyond += moved * reach_;
+        displacement += armOf(chain, step, beyond) * travel.angle;
+      beyond += displacement * reach_;
     }
-    *++sums = sum;
+    sums[i + 1] = sums[i] + displacement;
   }
 }
 }  // namespace gpu_planning_scene::core

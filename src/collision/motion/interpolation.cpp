@@ -183,7 +183,9 @@ void interpolate(const RobotModel& robot, const double* from, const double* to, 
                         return;
                       }
                       for (int i = first; i < first + count; ++i)
-                        state[i] = kind == ValueKind::WrappedAngle
+                        // A value that does not move stays the same, bit by bit.
+                        state[i] = from[i] == to[i] ? from[i]
+                                   : kind == ValueKind::WrappedAngle
                                        ? from[i] + fraction * shortestAngularDistance(from[i], to[i])
                                        : (1.0 - fraction) * from[i] + fraction * to[i];
                     });

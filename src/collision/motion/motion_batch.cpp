@@ -1,10 +1,13 @@
 #include "collision/motion/motion_batch.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 // Samples are checked in bisection order, so that collisions are found early. Under the rule Bound, a sample proves a
-// segment free, with the other samples in it, if the distance of each pair exceeds its required distance by more than
-// its joint displacement bound. Other segments are halved (adaptive bisection of Schwarzer, Saha, Latombe 2002 and
+// segment free, and so also the other samples in it, if the distance of each pair exceeds its required distance by more
+// than its joint displacement bound. Other segments are halved (adaptive bisection of Schwarzer, Saha, Latombe 2002 and
 // 2005).
 namespace gpu_planning_scene::core
 {
@@ -12,6 +15,8 @@ namespace
 {
 // Short batches, because a call can only be stopped between two batches.
 constexpr BatchSize::Limits kBatch{0.05, 2048, 64, 65536};
+// With margins, a state may need as many numbers as the robot has pairs of links.
+constexpr BatchSize::Limits kBatchWithMargins{0.05, 1024, 64, 8192};
 
 // The first round checks the ends and the middle of a motion. Each later round multiplies the number of checked samples
 // by kGrowth.
@@ -22,9 +27,23 @@ constexpr std::size_t kGrowth = 4;
 // sample.
 constexpr double kLeastTravel = 1e-7;  // radians and metres
 
-// Under the rule Bound, one sample in so many is checked before the segments are proven free. Most motions are free,
-// and a proof includes the samples in its segment.
+// Under the rule Bound, one of kBeforeProof samples is checked before the segments are proven free. Most motions are
+// free, and a proof includes the samples in its segment.
 constexpr std::size_t kBeforeProof = 8;
+
+/// An upper bound of the rounding, in radians, of the angles between two states that a joint or its follower can have.
+double angleRounding(const RobotModel& robot, const double* from, const double* to)
+{
+  double largest = 0.0;
+  for (const Joint& joint : robot.joints())
+    if (joint.type == JointType::Revolute || joint.type == JointType::Continuous)
+      for (const double* state : {from, to})
+        largest = std::max(largest, std::abs(joint.multiplier * state[joint.first_variable] + joint.offset));
+  for (const Joint& joint : robot.joints())
+    if (joint.type == JointType::Planar)
+      largest = std::max({largest, std::abs(from[joint.first_variable + 2]), std::abs(to[joint.first_variable + 2])});
+  return 4.0 * std::numeric_limits<double>::epsilon() * largest;
+}
 
 /// The numbers n and 0, then the middles of the segments in between, level by level.
 std::vector<std::size_t> bisectionOrder(std::size_t n)
@@ -54,7 +73,8 @@ MotionBatch::MotionBatch(StateChecker& checker, const RobotModel& robot, const s
     options_(options),
     last_valid_(query == MotionQuery::LastValid),
     stop_(stop),
-    batch_size_(kBatch)
+    batch_size_(kBatch),
+    batch_size_with_margins_(kBatchWithMargins)
 {
 }
 
@@ -68,6 +88,7 @@ void MotionBatch::add(const double* from, const double* to)
   motion.order = bisectionOrder(motion.segments);
   if (options_.rule == MotionRule::Bound)
     motion.travel = jointTravel(robot_, from, to);
+  motion.angle_rounding = angleRounding(robot_, from, to);
   for (const JointTravel& joint : motion.travel)
     motion.longest_travel = std::max({motion.longest_travel, joint.length, joint.angle});
   // Outside the joints' limits, and at very large angles, there are no displacement bounds.
@@ -76,39 +97,42 @@ void MotionBatch::add(const double* from, const double* to)
   motions_.push_back(std::move(motion));
 }
 
-std::size_t MotionBatch::nextBatch(std::size_t wanted)
+std::size_t MotionBatch::nextBatch(std::size_t wanted, const BatchSize& size)
 {
   stopped_ = stopped_ || (stop_ && stop_());
-  return stopped_ ? 0 : std::min({wanted, batch_size_.size(), options_.max_checks - states_checked_});
+  return stopped_ ? 0 : std::min({wanted, size.size(), options_.max_checks - states_checked_});
 }
 
-/// Adds the neighbourhoods of the interval's group. They depend only on the motion and on the group, so that the
-/// answers do not depend on how batches are cut.
+/// Adds the row that the intervals of a group share. It depends only on the motion and on the group, so the answers do
+/// not depend on how batches are cut.
 void MotionBatch::addRow(const Interval& interval, JointNeighbourhood& around) const
 {
   const Motion& motion = motions_[interval.motion];
   for (const JointTravel& joint : motion.travel)
-    around.travel.push_back({joint.length * interval.half, joint.angle * interval.half});
+    around.travel.push_back(
+        {joint.length * interval.half, joint.angle == 0.0 ? 0.0 : joint.angle * interval.half + motion.angle_rounding});
   const double middle = static_cast<double>(2 * interval.group() + 1) * Interval::kGroup * interval.half;
   const std::size_t width = robot_.variables().size();
   around.centers.resize(around.centers.size() + width);
   interpolate(robot_, motion.from, motion.to, std::min(1.0, middle), &around.centers[around.centers.size() - width]);
-  around.spread = Interval::kGroup;
 }
 
 template <class Visit>
 void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit)
 {
   const std::size_t width = robot_.variables().size();
+  BatchSize& size = with_margins ? batch_size_with_margins_ : batch_size_;
   std::vector<double> states;
   std::size_t count = 0;
   for (std::size_t begin = 0; begin < intervals.size(); begin += count)
   {
-    count = nextBatch(intervals.size() - begin);
+    count = nextBatch(intervals.size() - begin, size);
     if (count == 0)
     {
       for (std::size_t i = begin; i < intervals.size(); ++i)
       {
+        if (!isWanted(intervals[i]))
+          continue;
         motions_[intervals[i].motion].given_up = !stopped_;
         visit(intervals[i], false, kNoPair);
       }
@@ -116,6 +140,7 @@ void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with
     }
     states.resize(count * width);
     JointNeighbourhood around;
+    around.spread = Interval::kGroup;
     std::size_t last_motion = motions_.size();
     std::size_t last_group = 0;
     for (std::size_t i = 0; i < count; ++i)
@@ -123,10 +148,10 @@ void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with
       const Interval& interval = intervals[begin + i];
       Motion& motion = motions_[interval.motion];
       interpolate(robot_, motion.from, motion.to, interval.middle, states.data() + i * width);
-      ++motion.samples;
       if (!with_margins)
         continue;
-      // All intervals of a motion are equally wide.
+      ++motion.segments_examined;
+      // All intervals of a motion are equally wide, so the motion and the group name the row.
       if (interval.motion != last_motion || interval.group() != last_group)
         addRow(interval, around);
       last_motion = interval.motion;
@@ -137,7 +162,7 @@ void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with
     const BatchResult result = checker_.check(states.data(), count, group_, with_margins ? &around : nullptr);
     for (std::size_t i = 0; i < count; ++i)
       visit(intervals[begin + i], result.valid[i] != 0, result.colliding[i]);
-    batch_size_.took(count, result.seconds);
+    size.took(count, result.seconds);
   }
 }
 
@@ -186,12 +211,12 @@ std::vector<MotionBatch::Interval> MotionBatch::firstIntervals() const
 }
 
 /// Halves the intervals that are still wanted. Rejects a motion if its interval is too small or if too many of its
-/// samples have been checked.
+/// segments have been examined.
 std::vector<MotionBatch::Interval> MotionBatch::halves(const std::vector<Interval>& intervals)
 {
   for (const Interval& interval : intervals)
     if (const Motion& motion = motions_[interval.motion];
-        motion.samples >= options_.max_samples || motion.longest_travel * interval.half < kLeastTravel)
+        motion.segments_examined >= options_.max_samples || motion.longest_travel * interval.half < kLeastTravel)
       fail(interval, kNoPair);
   std::vector<Interval> result;
   for (const Interval& interval : intervals)

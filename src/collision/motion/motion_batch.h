@@ -30,13 +30,14 @@ class MotionBatch
   /// Checks the samples. It begins with a few samples of each motion, because most colliding motions collide at one of
   /// them.
   void checkSamples();
-  /// Proves that the motions that are still valid are free, with the samples that checkSamples() left out.
+  /// Proves that the motions that are still valid are free, at the samples that checkSamples() left out too.
   void prove();
   std::vector<MotionVerdict> verdicts() const;
   std::size_t statesChecked() const { return states_checked_; }
 
  private:
-  /// The segment of a motion that a sample represents: the fractions from middle - half to middle + half.
+  /// The segment of a motion that a sample represents: the fractions from middle - half to middle + half. The segment
+  /// with the number i has middle = (2 i + 1) half.
   struct Interval
   {
     std::size_t motion;
@@ -59,8 +60,9 @@ class MotionBatch
     std::vector<std::size_t> order;   // order of the samples, see bisectionOrder
     std::vector<JointTravel> travel;  // travel of each joint over the whole motion (rule Bound)
     double longest_travel = 0.0;      // largest length or angle in `travel`
-    std::size_t samples = 0;          // number of samples that were checked
-    double limit = 1.0;               // the motion is no longer checked beyond this fraction
+    double angle_rounding = 0.0;      // radians, of any angle of a state of the motion
+    std::size_t segments_examined = 0;
+    double limit = 1.0;  // the motion is no longer checked beyond this fraction
     double first_invalid = 1.0;
     bool valid = true;
     bool given_up = false;  // the call had no checks left for it
@@ -78,7 +80,8 @@ class MotionBatch
   bool isWanted(const Interval& interval) const
   {
     const Motion& motion = motions_[interval.motion];
-    return last_valid_ ? interval.begin() < motion.limit : motion.valid;
+    // Begins and limits are multiples of `half`, up to rounding.
+    return last_valid_ ? interval.begin() < motion.limit - 0.25 * interval.half : motion.valid;
   }
 
   /// Rejects the motion from this interval on: its middle collides, or the interval cannot be proven to be free.
@@ -99,7 +102,7 @@ class MotionBatch
   void checkMiddles(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit);
   void addRow(const Interval& interval, JointNeighbourhood& around) const;
   /// The number of intervals to check next, in one batch; 0: the call is stopped or has no checks left.
-  std::size_t nextBatch(std::size_t wanted);
+  std::size_t nextBatch(std::size_t wanted, const BatchSize& size);
   std::vector<Interval> firstIntervals() const;
   std::vector<Interval> halves(const std::vector<Interval>& intervals);
 
@@ -112,7 +115,8 @@ class MotionBatch
   const std::function<bool()>& stop_;
 
   bool stopped_ = false;
-  BatchSize batch_size_;
+  BatchSize batch_size_;  // without margins
+  BatchSize batch_size_with_margins_;
   std::vector<Motion> motions_;
   std::size_t states_checked_ = 0;
 };

@@ -251,6 +251,134 @@ class ScriptedChecker : public StateChecker
   std::vector<double> hits;
 };
 
+/// All states are free. A neighbourhood is proven free or not by chance, but always alike. Records the neighbourhoods.
+class ChanceChecker : public StateChecker
+{
+ public:
+  struct Proof
+  {
+    std::vector<double> state;
+    std::vector<double> center;
+    std::vector<JointTravel> travel;
+    double spread;
+    bool is_proven;
+  };
+
+  explicit ChanceChecker(std::shared_ptr<const RobotModel> robot) : robot_(std::move(robot)) {}
+  void setScene(std::shared_ptr<const PlanningScene> /*scene*/) override {}
+  BatchResult check(const double* states, std::size_t count, const std::string& /*group*/,
+                    const JointNeighbourhood* around) override
+  {
+    const std::size_t width = robot_->variables().size();
+    const std::size_t joints = robot_->joints().size();
+    BatchResult result;
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      bool is_proven = true;
+      if (around)
+      {
+        const auto row = static_cast<std::ptrdiff_t>(around->rows[i]);
+        const auto travel = around->travel.begin() + row * static_cast<std::ptrdiff_t>(joints);
+        const auto center = around->centers.begin() + row * static_cast<std::ptrdiff_t>(width);
+        Proof proof{{states + i * width, states + (i + 1) * width},
+                    {center, center + static_cast<std::ptrdiff_t>(width)},
+                    {travel, travel + static_cast<std::ptrdiff_t>(joints)},
+                    around->spread,
+                    true};
+        std::seed_seq seed{std::lround(1e6 * proof.state[0]), std::lround(1e6 * proof.travel[0].length)};
+        std::minstd_rand generator(seed);
+        is_proven = proof.is_proven = std::bernoulli_distribution(0.8)(generator);
+        proofs.push_back(std::move(proof));
+      }
+      result.valid.push_back(is_proven ? 1 : 0);
+      result.colliding.push_back(kNoPair);
+    }
+    return result;
+  }
+  SceneReport report(const std::string& /*group*/) override { return {}; }
+  std::string deviceName() const override { return "chance"; }
+
+  std::vector<Proof> proofs;
+
+ private:
+  std::shared_ptr<const RobotModel> robot_;
+};
+
+class MotionsByChance : public testing::Test
+{
+ protected:
+  /// A joint that slides from 0 to 1, and one that turns.
+  static std::shared_ptr<const RobotModel> slider()
+  {
+    return robotOf(boxLink("base") + boxLink("cart") + boxLink("tip") +
+                   jointXml("slide", "prismatic", "base", "cart", kLimit) +
+                   jointXml("turn", "continuous", "cart", "tip", "<axis xyz='0 0 1'/>"));
+  }
+
+  MotionVerdict verdictOf(double step, std::size_t max_samples, MotionQuery query)
+  {
+    checker_->proofs.clear();
+    MotionCheckerOptions options;
+    options.steps = {10.0, step};
+    options.max_samples = max_samples;
+    return MotionChecker(checker_, robot_, "", options).check(from_.data(), to_.data(), 1, query).front();
+  }
+
+  std::shared_ptr<const RobotModel> robot_ = slider();
+  std::shared_ptr<ChanceChecker> checker_ = std::make_shared<ChanceChecker>(robot_);
+  const std::vector<double> from_{0.0, 3.0};
+  const std::vector<double> to_{1.0, -2.5};  // turns through pi
+};
+
+TEST_F(MotionsByChance, AreProvenAlongTheirWholeLengthFromNeighbourhoodsNearTheirCentre)
+{
+  std::size_t valid = 0;
+  for (std::size_t segments = 1; segments <= 40; ++segments)
+  {
+    SCOPED_TRACE(segments);
+    const bool is_valid = verdictOf(1.000001 / static_cast<double>(segments), 20000, MotionQuery::Valid).valid;
+    valid += is_valid ? 1 : 0;
+    std::vector<std::pair<double, double>> proven;  // fractions of the motion
+    for (const ChanceChecker::Proof& proof : checker_->proofs)
+    {
+      const std::vector<JointTravel> off = jointTravel(*robot_, proof.center.data(), proof.state.data());
+      for (std::size_t j = 0; j < off.size(); ++j)
+      {
+        EXPECT_LE(off[j].length, proof.spread * proof.travel[j].length + 1e-12);
+        EXPECT_LE(off[j].angle, proof.spread * proof.travel[j].angle + 1e-12);
+      }
+      if (proof.is_proven)
+        proven.emplace_back(proof.state[0] - proof.travel[0].length, proof.state[0] + proof.travel[0].length);
+    }
+    if (!is_valid)
+      continue;
+    std::sort(proven.begin(), proven.end());
+    double end = 0.0;
+    for (const auto& [begin, next] : proven)
+    {
+      EXPECT_LE(begin, end + 1e-12) << "a part of the motion is not proven";
+      end = std::max(end, next);
+    }
+    EXPECT_GE(end, 1.0 - 1e-12);
+  }
+  EXPECT_GT(valid, 30U);
+}
+
+TEST_F(MotionsByChance, HaveTheSameVerdictForBothQueriesWhateverTheLimitOfSamples)
+{
+  std::size_t rejected = 0;
+  for (std::size_t segments = 20; segments <= 60; segments += 5)
+    for (std::size_t max_samples = segments + 1; max_samples < 4 * segments; ++max_samples)
+    {
+      const double step = 1.000001 / static_cast<double>(segments);
+      const bool is_valid = verdictOf(step, max_samples, MotionQuery::Valid).valid;
+      EXPECT_EQ(is_valid, verdictOf(step, max_samples, MotionQuery::LastValid).valid)
+          << segments << " segments, at most " << max_samples;
+      rejected += is_valid ? 0 : 1;
+    }
+  EXPECT_GT(rejected, 10U);
+}
+
 TEST_F(PointMotions, AreJudgedByTheFirstSampleThatCollides)
 {
   const auto scripted = std::make_shared<ScriptedChecker>();
@@ -275,6 +403,23 @@ TEST_F(PointMotions, AreJudgedByTheFirstSampleThatCollides)
     EXPECT_EQ(verdict.first_invalid, first == 5 ? 1.0 : first / 4.0) << hits;
     EXPECT_EQ(verdict.colliding == kNoPair, first == 5) << hits;
   }
+}
+
+TEST_F(PointMotions, ThatCollideHaveTheirPairAlsoIfTheChecksThenEnd)
+{
+  const auto scripted = std::make_shared<ScriptedChecker>();
+  scripted->hits = {1.0};
+  MotionCheckerOptions options;
+  options.steps = {1.0, 0.25};
+  options.max_checks = 1;  // the end is checked first
+  const std::vector<double> start = {0.0, 0.0};
+  const std::vector<double> end = {1.0, 0.0};
+  const MotionVerdict verdict =
+      MotionChecker(scripted, scene_->robot, "", options).check(start.data(), end.data(), 1).front();
+  EXPECT_FALSE(verdict.valid);
+  EXPECT_FALSE(verdict.given_up);
+  EXPECT_EQ(verdict.first_invalid, 1.0);
+  EXPECT_NE(verdict.colliding, kNoPair);
 }
 
 TEST_F(PointMotions, AreRefusedWhereStepsCutThemIntoTooManySamples)
