@@ -1,5 +1,6 @@
 // Compares every checker with FCL on real robots. They must agree except where FCL is known to be wrong.
 
+#include <algorithm>
 #include <iostream>
 #include <map>
 #include <tuple>
@@ -59,6 +60,18 @@ std::string nameOf(const testing::TestParamInfo<Agreement::ParamType>& parameter
 {
   return std::string(std::get<0>(parameter.param)) + "_" + std::get<1>(parameter.param);
 }
+/// The scenes of the benchmark that are not test scenes.
+std::vector<std::string> otherSceneNames()
+{
+  std::vector<std::string> others;
+  for (const std::string& name : benchmarkSceneNames())
+    if (std::find(testSceneNames().begin(), testSceneNames().end(), name) == testSceneNames().end())
+      others.push_back(name);
+  return others;
+}
+INSTANTIATE_TEST_SUITE_P(OfTheBenchmark, Agreement,
+                         testing::Combine(testing::Values("cpu"), testing::ValuesIn(otherSceneNames())), nameOf);
+
 INSTANTIATE_TEST_SUITE_P(Checkers, Agreement,
                          testing::Combine(testing::Values("cpu", "breadth_first", "work_queue"),
                                           testing::ValuesIn(testSceneNames())),

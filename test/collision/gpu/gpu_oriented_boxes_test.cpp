@@ -1,5 +1,6 @@
 // Oriented boxes that the GPU fits are valid for any triangles, and no larger than the boxes that the CPU fits.
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <iostream>
@@ -103,6 +104,31 @@ class GpuOrientedBoxesTest : public testing::Test
         << "node " << index;
   }
 
+  static constexpr double kLarger = 1.02;
+
+  static double plainSurface(const std::vector<Triangle>& triangles)
+  {
+    TriangleSpread spread(triangles.front());
+    for (std::size_t i = 1; i < triangles.size(); ++i)
+      spread = TriangleSpread(spread, TriangleSpread(triangles[i]));
+    return surfaceMeasure(fitOrientedBox(spread, triangles.data(), triangles.size()).half);
+  }
+
+  /// The triangles in another order, with corners that are moved by a millionth of their extent.
+  std::vector<Triangle> moved(std::vector<Triangle> triangles)
+  {
+    Eigen::AlignedBox3d bounds;
+    for (const Triangle& triangle : triangles)
+      for (const Vector3d& corner : triangle)
+        bounds.extend(corner);
+    for (Triangle& triangle : triangles)
+      for (Vector3d& corner : triangle)
+        corner +=
+            1e-6 * bounds.sizes().norm() * Vector3d(uniform_(generator_), uniform_(generator_), uniform_(generator_));
+    std::shuffle(triangles.begin(), triangles.end(), generator_);
+    return triangles;
+  }
+
   EglContext context_{"auto"};
   GpuTrees trees_{shaderFolder()};
   std::vector<Node> nodes_;
@@ -156,25 +182,27 @@ TEST_F(GpuOrientedBoxesTest, AreThoseOfThePlainFit)
     GTEST_SKIP() << "no robots are installed";
   build(shapes);
   std::size_t nodes = 0;
-  std::size_t larger = 0;
+  std::size_t undetermined = 0;
   for (std::size_t tree = 0; tree < shapes.size(); ++tree)
     forNodes(trees_.tree(tree).root,
              [&](std::uint32_t index, const std::vector<std::uint32_t>& below)
              {
                std::vector<Triangle> triangles;
-               TriangleSpread spread;
                for (const std::uint32_t triangle : below)
-               {
                  triangles.push_back(cornersOf(triangle));
-                 spread = triangles.size() == 1 ? TriangleSpread(triangles.back())
-                                                : TriangleSpread(spread, TriangleSpread(triangles.back()));
-               }
-               const OrientedBox plain = fitOrientedBox(spread, triangles.data(), triangles.size());
                ++nodes;
-               larger += halfSurface(oriented_[index].half) > 1.02 * surfaceMeasure(plain.half) + 1e-9 ? 1 : 0;
+               const double surface = halfSurface(oriented_[index].half) - 1e-9;
+               if (surface <= kLarger * plainSurface(triangles))
+                 return;
+               // If two axes or two triangles differ only by rounding errors, the two fits may choose different axes.
+               // The plain fit then does so too for corners that are moved by rounding errors.
+               ++undetermined;
+               double largest = 0.0;
+               for (int i = 0; i < 32; ++i)
+                 largest = std::max(largest, plainSurface(moved(triangles)));
+               EXPECT_LE(surface, kLarger * largest) << "node " << index << ", seed " << kSeed;
              });
-  // If two axes differ only by rounding errors in quality, the two fits may choose different axes.
-  EXPECT_LE(larger, nodes / 200) << "of " << nodes;
+  EXPECT_LE(undetermined, nodes / 50);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
