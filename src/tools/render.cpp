@@ -52,7 +52,7 @@ std::vector<double> stateFrom(const CommandLine& arguments, const PlanningScene&
   }
   if (arguments.has("--state"))
     if (const std::string warning =
-            setValues(*scene.robot, arguments.value("--state", ""), !scene.current_state.empty(), state);
+            setValues(*scene.robot, arguments.value("--state", ""), !scene.current_state.empty(), state).warning;
         !warning.empty())
       printWarnings({warning});
   return state;

@@ -51,9 +51,19 @@ class RandomStates : public StateSource
 class StateOfText : public StateSource
 {
  public:
-  StateOfText(const PlanningScene& scene, const std::string& text) : text_(text), state_(startState(scene))
+  StateOfText(const PlanningScene& scene, const std::string& text, const std::string& group)
+    : text_(text), state_(startState(scene))
   {
-    warning_ = setValues(*scene.robot, text, !scene.current_state.empty(), state_);
+    SetValues values = setValues(*scene.robot, text, !scene.current_state.empty(), state_);
+    warning_ = std::move(values.warning);
+    try
+    {
+      requireVariableOfGroup(*scene.robot, group, values.variables);
+    }
+    catch (const Error& error)
+    {
+      throw UsageError(std::string("--state: ") + error.what());
+    }
   }
 
   std::size_t count() const override { return 1; }
@@ -70,7 +80,7 @@ class StateOfText : public StateSource
 class StatesOfFile : public StateSource
 {
  public:
-  StatesOfFile(const PlanningScene& scene, const std::string& path) : path_(path)
+  StatesOfFile(const PlanningScene& scene, const std::string& path, const std::string& group) : path_(path)
   {
     const RobotModel& robot = *scene.robot;
     width_ = robot.variables().size();
@@ -79,6 +89,7 @@ class StatesOfFile : public StateSource
     try
     {
       const std::vector<int> columns = variableIndices(robot, table.names);
+      requireVariableOfGroup(robot, group, columns);
       if (const auto outside = findDoubtfulValue(robot, columns, table.values.data(), table.rows))
         warning_ = path + ":" + std::to_string(outside->row + 2) + ": " + outside->text;
       const PartialState current(robot, scene.current_state);
@@ -123,7 +134,8 @@ std::vector<Option> stateOptions()
            "robot_state"},
           {"--state", "ITEM,...",
            "instead: one state, from items NAME=VALUE (a variable) and names of\nstates of the SRDF (ready, or "
-           "GROUP/ready); the other variables have\nthe scene's robot_state, or their defaults"},
+           "GROUP/ready), of which later ones replace\nvalues of earlier ones; the other variables have the "
+           "scene's\nrobot_state, or their defaults"},
           {"--random", "N",
            "instead: N random states within the limits. Planar and floating\njoints, which move the robot's base, "
            "stay where they are"},
@@ -145,10 +157,11 @@ void checkStateUsage(const CommandLine& arguments)
 std::unique_ptr<StateSource> stateSourceFrom(const CommandLine& arguments, const PlanningScene& scene)
 {
   checkStateUsage(arguments);
+  const std::string group = arguments.value("--group", "");
   if (arguments.has("--states"))
-    return std::make_unique<StatesOfFile>(scene, arguments.required("--states"));
+    return std::make_unique<StatesOfFile>(scene, arguments.required("--states"), group);
   if (arguments.has("--state"))
-    return std::make_unique<StateOfText>(scene, arguments.required("--state"));
+    return std::make_unique<StateOfText>(scene, arguments.required("--state"), group);
   const std::size_t count = arguments.count("--random", 0, 1, 1000000000);
   const std::size_t seed = arguments.count("--seed", 0, 0, std::numeric_limits<long long>::max());
   return std::make_unique<RandomStates>(scene, count, seed, !arguments.has("--random-base"));

@@ -17,7 +17,7 @@ std::vector<double> startState(const PlanningScene& scene)
   return scene.current_state.empty() ? scene.robot->defaultState() : scene.current_state;
 }
 
-std::string setValues(const RobotModel& robot, const std::string& text, bool has_state, std::vector<double>& state)
+SetValues setValues(const RobotModel& robot, const std::string& text, bool has_state, std::vector<double>& state)
 {
   if (text.empty())
     throw UsageError("--state: the text is empty; give NAME=VALUE or the name of a state of the SRDF");
@@ -66,7 +66,7 @@ std::string setValues(const RobotModel& robot, const std::string& text, bool has
   if (!assumed.empty())
     warning +=
         (warning.empty() ? "--state: " : "; ") + ("joints without a value get their default: " + nameList(assumed));
-  return warning;
+  return {variables, warning};
 }
 
 void randomise(const RobotModel& robot, std::mt19937_64& generator, const std::vector<double>& start, bool keep_base,

@@ -203,6 +203,19 @@ TEST_F(ChangeAttached, AnUnknownTouchLinkIsLeftOutWithAWarning)
   EXPECT_TRUE(warned("touch link of object 'a' ignored: the robot has no link 'card'; did you mean 'cart'?"));
 }
 
+TEST_F(ChangeAttached, AMatrixThatOnlyAllowsOtherPairsGivesNoWarning)
+{
+  change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
+  SceneChange allow;
+  allow.is_diff = true;
+  allow.matrix = scene_.allowed_collisions;
+  allow.matrix->setEntry("a", "table", true);
+  allow.matrix->setEntry("pole", "rail", true);
+  apply(allow);
+  change(attachedChange(Operation::Add, "a", "pole"));
+  EXPECT_FALSE(warned("forbids"));
+}
+
 TEST_F(ChangeAttached, AMatrixThatForbidsTheCarryingLinkIsAWarning)
 {
   change(objectChange(Operation::Add, "a", {boxAt(0.1)}));

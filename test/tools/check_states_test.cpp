@@ -465,6 +465,7 @@ TEST_F(CheckStates, BadUsageEndsWithTwo)
   expectError(check({"--state", "turn=0", "--random-base"}), 2, "--random-base needs --random");
   expectError(check({"--state", "turn=0,turn=1"}), 2, "--state: 'turn=1': variable 'turn' is given twice");
   expectError(check({"--random", "0"}), 2, "--random: '0'");
+  expectError(check({"--group", "mast", "--state", "slide=0"}), 2, "--state: the state sets no variable of the group");
   expectError(check({"--random", "ten"}), 2, "--random: 'ten'");
   expectError(check({"--random", "1.5"}), 2, "--random: '1.5'");
   expectError(check({"--random", "1", "--seed", "-1"}), 2, "--seed: '-1'");

@@ -3,32 +3,13 @@
 #include <utility>
 
 #include "collision/motion/motion_batch.h"
+#include "collision/motion/motions_of_group.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
-#include "model/full_states.h"
 
 // Validates the motions. MotionBatch checks them, by the method of Schwarzer, Saha and Latombe (2002).
 namespace gpu_planning_scene::core
 {
-namespace
-{
-/// Refuses motions of other joints than those of the group, because collisions of the links that only these joints move
-/// are not checked.
-void requireMotionsOfGroup(const RobotModel& robot, const std::string& group, const double* starts, const double* ends,
-                           std::size_t count)
-{
-  if (group.empty())
-    return;
-  const std::size_t width = robot.variables().size();
-  const std::vector<int>& variables = robot.group(group).variables;
-  for (std::size_t i = 0; i < count; ++i)
-    if (const int moved = movedVariableBeyond(robot, variables, starts + i * width, ends + i * width); moved >= 0)
-      throw Error("motion " + std::to_string(i) + " moves " + robot.variables()[static_cast<std::size_t>(moved)].name +
-                  ", which is not in group '" + group + "', so collisions of the links that it moves would not be " +
-                  "found; check without a group, or with one that has this joint");
-}
-}  // namespace
-
 MotionRule motionRuleFromName(const std::string& name)
 {
   if (name == "samples")
@@ -50,7 +31,7 @@ std::vector<MotionVerdict> MotionChecker::check(const double* starts, const doub
 {
   validateStates(*robot_, starts, count);
   validateStates(*robot_, ends, count);
-  requireMotionsOfGroup(*robot_, group_, starts, ends, count);
+  requireMotionsOfGroup(*robot_, group_, starts, ends, count, "motion");
   MotionCheckerOptions options = options_;
   if (query == MotionQuery::Samples)
     options.rule = MotionRule::Samples;

@@ -4,6 +4,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/robot_model.h"
+#include "model/text/name_list.h"
 
 // Rules for the solids of meshes: their names, and robots with other rules.
 namespace gpu_planning_scene::core
@@ -53,7 +54,12 @@ std::shared_ptr<const RobotModel> RobotModel::withSolids(const std::map<std::str
   {
     const int link = linkIndex(name);
     if (link < 0)
-      throw Error("solid of link '" + name + "': the robot has no such link");
+    {
+      std::vector<std::string> names;
+      for (const Link& each : links_)
+        names.push_back(each.name);
+      throw Error("solid of link '" + name + "': the robot has no such link; it has " + nameList(names));
+    }
     std::vector<PlacedShape>& shapes = result->links_[static_cast<std::size_t>(link)].shapes;
     if (std::none_of(shapes.begin(), shapes.end(),
                      [](const PlacedShape& placed)

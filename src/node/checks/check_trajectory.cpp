@@ -3,6 +3,7 @@
 #include <tuple>
 #include <utility>
 
+#include "collision/motion/motions_of_group.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
@@ -125,6 +126,7 @@ CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::
         const std::size_t width = start.size();
         const std::size_t parts = trajectory.waypoints;
         validateStates(robot, path.data() + width, parts, "waypoint");
+        requireMotionsOfGroup(robot, request.group, path.data(), path.data() + width, parts, "part");
 
         CheckJob job;
         job.group = request.group;

@@ -1,6 +1,7 @@
 #include "node/planning/plan_request.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
@@ -8,6 +9,8 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "model/full_states.h"
+#include "model/text/name_list.h"
+#include "model/text/number_text.h"
 #include "model/text/parse_number.h"
 #include "node/messages/requested_states.h"
 #include "node/parameters/parameter_values.h"
@@ -200,5 +203,25 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
   refuseCostly(query.parameters, space.getMaximumExtent(), options.max_parameter);
   query.projection = planners.projection;
   return query;
+}
+
+std::string startBeyondGroup(const PlanMotion::Request& request, const Snapshot& now, const std::vector<double>& start)
+{
+  constexpr double kWrittenDecimals = 1e-6;  // radians or metres: values of an SRDF are often written with six decimals
+  if (request.named_start.empty())
+    return "";
+  const RobotModel& robot = *now.scene->robot;
+  const std::vector<int>& of_group = robot.group(request.group).variables;
+  std::vector<std::string> moved;
+  for (std::size_t i = 0; i < start.size(); ++i)
+    if (now.known[i] && std::abs(start[i] - now.state[i]) > kWrittenDecimals &&
+        std::find(of_group.begin(), of_group.end(), static_cast<int>(i)) == of_group.end())
+      moved.push_back(robot.variables()[i].name + " (" + numberText(start[i]) + " instead of " +
+                      numberText(now.state[i]) + ")");
+  if (moved.empty())
+    return "";
+  return "named_start '" + request.named_start + "' also sets variables outside the group '" + request.group +
+         "', which have other values now: " + nameList(moved) +
+         "; to keep them, name the state of the group alone, as " + "GROUP/NAME";
 }
 }  // namespace gpu_planning_scene::core

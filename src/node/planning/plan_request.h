@@ -29,4 +29,8 @@ PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own);
 /// settings of the requested group. Throws Error for a wrong request.
 PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now, const PlannerConfig& config,
                         const GroupPlanners& planners, const PlanServiceOptions& options);
+
+/// A warning if the named start of a request replaces known values of variables outside the group, for example of
+/// another arm that has a state of this name too; otherwise empty. `start`: of the query.
+std::string startBeyondGroup(const PlanMotion::Request& request, const Snapshot& now, const std::vector<double>& start);
 }  // namespace gpu_planning_scene::core

@@ -183,6 +183,8 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
   PlanningQuery query = queryFrom(request, now, config, configs_.ofGroup(request.group), options_);
   if (std::string base = now.assumedBase(variableIndices(*now.scene->robot, request.start_names)); !base.empty())
     warnings.push_back(std::move(base));
+  if (std::string beyond = startBeyondGroup(request, now, query.start); !beyond.empty())
+    warnings.push_back(std::move(beyond));
   std::vector<int> columns(query.start.size());
   std::iota(columns.begin(), columns.end(), 0);
   std::vector<std::vector<double>> rows = query.goals;

@@ -124,6 +124,12 @@ void SceneChanger::warnOfForbiddenCarrier(const AttachedObject& attached)
   const std::vector<std::string> named = matrix.bodiesWithEntries();
   if (!std::binary_search(named.begin(), named.end(), id) || !std::binary_search(named.begin(), named.end(), link))
     return;
+  // With these defaults, only an entry of the pair forbids it.
+  AllowedCollisionMatrix with_defaults = matrix;
+  with_defaults.setDefault(id, true);
+  with_defaults.setDefault(link, true);
+  if (with_defaults.allowed(id, link))
+    return;
   result_.warnings.push_back(
       "the allowed-collision matrix forbids object '" + id + "' to touch link '" + link +
       "', but this pair is not checked, because the link carries the object; to avoid this warning, "

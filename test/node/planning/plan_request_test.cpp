@@ -55,5 +55,28 @@ TEST_F(BaseRequest, HasTheWorkspaceOfItsMessage)
   request_.workspace_parameters.header.frame_id = "rail";
   EXPECT_NE(std::string::npos, errorOf([this] { query(); }).find("give them in the planning frame 'hall'"));
 }
+
+/// For example the state "ready" of two arms: it also sets the arm that is not planned for.
+TEST(NamedStart, ThatReplacesKnownValuesOutsideTheGroupGivesAWarning)
+{
+  SceneStore store(PlanningScene(sliderRobot()), {}, {});
+  store.updateState({{"slide", 0.5}, {"turn", 0.0}});
+  PlanMotion::Request request;
+  request.group = "mast";
+  request.named_start = "left";  // slide = -1, turn = 0.8
+  request.goal_names = {"turn"};
+  request.goals = {0.1};
+  const auto warning = [&]
+  { return startBeyondGroup(request, store.snapshot(), queryFrom(request, store.snapshot(), {}, {}, {}).start); };
+  EXPECT_EQ(
+      "named_start 'left' also sets variables outside the group 'mast', which have other values now: slide (-1 instead "
+      "of 0.5); to keep them, name the state of the group alone, as GROUP/NAME",
+      warning());
+  store.updateState({{"slide", -1.0}});
+  EXPECT_EQ("", warning());
+  store.updateState({{"slide", 0.5}});
+  request.group = "drive";
+  EXPECT_EQ("", warning());
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core
