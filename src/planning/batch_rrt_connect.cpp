@@ -33,7 +33,7 @@ constexpr double kMaxProof = 1.0;
 
 // More searches hardly shorten the time of the fastest one, and all of them read the same memory.
 constexpr std::size_t kMostSearches = 8;
-constexpr unsigned int kMostThreads = 64;  // more would only be a mistake
+constexpr std::size_t kMostThreads = 64;  // more would only be a mistake
 }  // namespace
 
 BatchRrtConnect::BatchRrtConnect(const ob::SpaceInformationPtr& information)
@@ -66,8 +66,8 @@ void BatchRrtConnect::setBranches(unsigned int branches)
 void BatchRrtConnect::setSearches(unsigned int searches)
 {
   if (searches > kMostThreads)
-    throw ompl::Exception(getName(), "searches is " + std::to_string(searches) + "; it must be at most " +
-                                         std::to_string(kMostThreads));
+    throw ompl::Exception(
+        getName(), "searches is " + std::to_string(searches) + "; it must be at most " + std::to_string(kMostThreads));
   searches_ = searches;
 }
 

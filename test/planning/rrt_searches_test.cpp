@@ -22,8 +22,8 @@ namespace
 namespace ob = ompl::base;
 
 /// Two walls, each with a gap at a different end.
-const std::vector<Wall> kTwoWalls = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
-const std::vector<Wall> kClosedWall = {{-0.1, -3.0, 0.1, 3.0}};
+const std::vector<Wall> kZigzag = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
+const std::vector<Wall> kBarrier = {{-0.1, -3.0, 0.1, 3.0}};
 
 class RrtSearchesTest : public testing::Test
 {
@@ -62,7 +62,7 @@ class RrtSearchesTest : public testing::Test
 TEST_F(RrtSearchesTest, EndWithTheSolutionOfAnyOfThem)
 {
   wait_ms_ = 200;
-  const RrtSearch::Path path = run(kTwoWalls, 3, 0, ob::timedPlannerTerminationCondition(60.0));
+  const RrtSearch::Path path = run(kZigzag, 3, 0, ob::timedPlannerTerminationCondition(60.0));
   ASSERT_TRUE(path);
   EXPECT_TRUE(robot_->isValid(*path));
   EXPECT_EQ(PointRobot::positionOf(path->getStates().front()), PointRobot::Position(-1.0, 0.0));
@@ -77,15 +77,15 @@ TEST_F(RrtSearchesTest, EndWithTheSolutionOfAnyOfThem)
 TEST_F(RrtSearchesTest, EndWithTheTimeOrTheRoundsOfTheFirst)
 {
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_FALSE(run(kClosedWall, 3, 0, ob::timedPlannerTerminationCondition(0.2)));
-  EXPECT_FALSE(run(kClosedWall, 3, 20, ob::timedPlannerTerminationCondition(60.0)));
+  EXPECT_FALSE(run(kBarrier, 3, 0, ob::timedPlannerTerminationCondition(0.2)));
+  EXPECT_FALSE(run(kBarrier, 3, 20, ob::timedPlannerTerminationCondition(60.0)));
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
 TEST_F(RrtSearchesTest, AreOneSearchIfTheirNumberIsOne)
 {
   rounds_of_first_ = 0;
-  EXPECT_FALSE(run(kClosedWall, 1, 20, ob::timedPlannerTerminationCondition(60.0)));
+  EXPECT_FALSE(run(kBarrier, 1, 20, ob::timedPlannerTerminationCondition(60.0)));
   EXPECT_EQ(rounds_of_first_, 20U);
 }
 
@@ -113,7 +113,7 @@ class FailingElsewhere : public StateChecker
 
 TEST(ParallelBatchRrtConnect, ThrowsWhatASearchThrows)
 {
-  const PointRobot robot(kClosedWall);
+  const PointRobot robot(kBarrier);
   robot.information()->setMotionValidator(std::make_shared<MotionValidator>(
       robot.information(), robot.scene(), std::make_shared<FailingElsewhere>(robot.checker())));
   robot.information()->setup();

@@ -40,7 +40,8 @@ TEST(SolidsOfLinks, AreThoseOfTheirRules)
   const auto error_for = [](const RobotModel& of, const std::string& link) {
     return errorOf([&] { of.withSolids({{link, SolidRule::Filled}}); });
   };
-  EXPECT_EQ("solid of link 'tail': the robot has no such link", error_for(*robot, "tail"));
+  EXPECT_EQ("solid of link 'tail': the robot has no such link; it has rail, cart, nut, pole, pennant",
+            error_for(*robot, "tail"));
   const auto primitives = RobotModel::fromXml(
       "<robot name='ball'><link name='ball'><collision><geometry><sphere radius='0.1'/></geometry></collision></link>"
       "</robot>",

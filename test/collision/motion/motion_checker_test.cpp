@@ -287,7 +287,7 @@ class ChanceChecker : public StateChecker
                     true};
         std::seed_seq seed{std::lround(1e6 * proof.state[0]), std::lround(1e6 * proof.travel[0].length)};
         std::minstd_rand generator(seed);
-        is_proven = proof.is_proven = std::bernoulli_distribution(0.8)(generator);
+        is_proven = proof.is_proven = std::bernoulli_distribution(0.65)(generator);
         proofs.push_back(std::move(proof));
       }
       result.valid.push_back(is_proven ? 1 : 0);

@@ -780,6 +780,7 @@ TEST_F(UnknownBase, IsNotMentionedIfTheRequestGivesThePose)
   states.scene_diff.is_diff = states.scene_diff.robot_state.is_diff = 1;
   states.scene_diff.link_padding.resize(1);
   states.scene_diff.link_padding[0].link_name = "rail";
+  store.updateState({{"slide", 0.0}, {"turn", 0.0}});
   EXPECT_EQ("", messageOf(states));
 
   CollisionObject box;

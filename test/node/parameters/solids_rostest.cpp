@@ -57,7 +57,7 @@ TEST_F(SolidParameters, OfTheWrongKindAreNamed)
   EXPECT_EQ("parameter /solids/node/solids: link 'part': solid: 'full' is unknown; known are auto, surface and filled",
             fault());
   own.setParam("solids", std::map<std::string, std::string>{{"parts", "filled"}});
-  EXPECT_EQ("solid of link 'parts': the robot has no such link", fault());
+  EXPECT_EQ("solid of link 'parts': the robot has no such link; it has part", fault());
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
