@@ -802,7 +802,10 @@ TEST_F(UnknownBase, IsNotMentionedIfTheRequestGivesThePose)
 
   SceneChange on_table;
   on_table.is_diff = true;
-  on_table.objects.push_back({Operation::Add, "table", {}, {}, {{Box{{1.0, 1.0, 0.1}}}}, {}, {}, {}});
+  ObjectChange table;
+  table.id = "table";
+  table.shapes = {{Box{{1.0, 1.0, 0.1}}}};
+  on_table.objects = {table};
   store.apply(on_table, {});
   EXPECT_EQ("", message_in("table"));
 }
