@@ -7,7 +7,8 @@
 namespace gpu_planning_scene::core
 {
 /// Checks states on the CPU, without a GL device: traverses bounding volume trees in double precision, on all cores.
-/// Thread-safe: calls of check() run side by side. setScene() waits until they have ended.
+/// Thread-safe: calls of check() run side by side. They wait only for a report(), for the first check of a group, and
+/// for setScene(), which itself waits until the running checks have ended.
 class CpuChecker : public StateChecker
 {
  public:

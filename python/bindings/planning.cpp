@@ -163,7 +163,8 @@ void addPlanning(py::module_& module)
       .def_readonly("planning_seconds", &PlanningResult::planning_seconds)
       .def_readonly("simplification_seconds", &PlanningResult::simplification_seconds)
       .def_readonly("checking_seconds", &PlanningResult::checking_seconds,
-                    "Seconds of the checker, within planning_seconds and simplification_seconds.")
+                    "Seconds of the checker, within planning_seconds and simplification_seconds, summed over all "
+                    "searches.")
       .def_readonly("states_checked", &PlanningResult::states_checked)
       .def_readonly("revision", &PlanningResult::revision, "PlanningScene.revision of the checked scene.");
   module.def(

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include <sched.h>
+#include <unistd.h>
 
 namespace gpu_planning_scene::core
 {
@@ -13,7 +14,7 @@ std::size_t availableCores()
   static const std::size_t cores = []
   {
     cpu_set_t set;
-    if (sched_getaffinity(0, sizeof(set), &set) == 0)  // fails on machines with more than 1024 cores
+    if (sched_getaffinity(getpid(), sizeof(set), &set) == 0)  // fails on machines with more than 1024 cores
       return static_cast<std::size_t>(std::max(1, CPU_COUNT(&set)));
     return static_cast<std::size_t>(std::max(1U, std::thread::hardware_concurrency()));
   }();

@@ -103,7 +103,7 @@ std::optional<ValueOutsideLimits> findManyTurns(const RobotModel& robot, const s
     if (!is_planar && (joint.type != JointType::Continuous || joint.mimic))
       continue;
     const int angle = joint.first_variable + (is_planar ? 2 : 0);
-    // A measured angle of a wheel or a wrist may be many turns, but it is no whole number.
+    // A measured angle of a wheel or a wrist may be many turns, but it is seldom a whole number.
     const auto may_be_degrees = [is_planar](double value)
     { return std::abs(value) > 2.0 * kPi && (is_planar || std::round(value) == value); };
     for (std::size_t k = 0; k < columns.size(); ++k)

@@ -32,8 +32,8 @@ constexpr double kLeastProof = 0.1;
 constexpr double kMaxProof = 1.0;
 
 // More searches hardly shorten the time of the fastest one, and all of them read the same memory.
-constexpr std::size_t kMostSearches = 8;
-constexpr std::size_t kMostThreads = 64;  // more would only be a mistake
+constexpr std::size_t kDefaultSearches = 8;
+constexpr std::size_t kMostSearches = 64;  // more would only be a mistake
 }  // namespace
 
 BatchRrtConnect::BatchRrtConnect(const ob::SpaceInformationPtr& information)
@@ -65,9 +65,9 @@ void BatchRrtConnect::setBranches(unsigned int branches)
 
 void BatchRrtConnect::setSearches(unsigned int searches)
 {
-  if (searches > kMostThreads)
+  if (searches > kMostSearches)
     throw ompl::Exception(
-        getName(), "searches is " + std::to_string(searches) + "; it must be at most " + std::to_string(kMostThreads));
+        getName(), "searches is " + std::to_string(searches) + "; it must be at most " + std::to_string(kMostSearches));
   searches_ = searches;
 }
 
@@ -130,7 +130,9 @@ void BatchRrtConnect::takeMoreGoals()
 
 std::size_t BatchRrtConnect::searchesOf(const MotionValidator& validator) const
 {
-  return searches_ != 0 ? searches_ : validator.checksSideBySide() ? std::min(availableCores(), kMostSearches) : 1;
+  if (searches_ != 0)
+    return searches_;
+  return validator.checksSideBySide() ? std::min(availableCores(), kDefaultSearches) : 1;
 }
 
 ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& ptc)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -50,6 +49,8 @@ RrtSearch::Path RrtSearches::run(const MotionValidator& validator, const ob::Goa
     if (RrtSearch::Path path = first().runRound(validator, goal, options.limits, ptc))
       return path;
   }
+  if (is_over())
+    return nullptr;
   return runBesideOthers(validator, goal, options, rounds, before_round, ptc);
 }
 
@@ -96,14 +97,16 @@ RrtSearch::Path RrtSearches::runBesideOthers(const MotionValidator& validator, c
     has_ended = true;
   };
   std::vector<std::thread> threads;
+  threads.reserve(options.count);
   try
   {
     for (std::size_t i = 1; i < options.count; ++i)
       threads.emplace_back(run_other, i);
   }
-  catch (const std::system_error&)
+  catch (const std::exception&)
   {
-    // The system has no more threads: the searches that have begun go on.
+    // No thread, or no memory for one. The searches that have begun go on: destroying a running std::thread ends the
+    // process.
   }
   run_first();
   for (std::thread& thread : threads)
@@ -131,11 +134,12 @@ RrtSearch::Path RrtSearches::provenPath(const MotionValidator& validator, const 
 }
 
 RrtSearch::Path RrtSearches::approximatePath(const MotionValidator& validator,
-                                             const ob::PlannerTerminationCondition& ptc) const
+                                             const ob::PlannerTerminationCondition& ptc)
 {
   const auto closest =
       std::min_element(searches_.begin(), searches_.end(),
                        [](const auto& a, const auto& b) { return a->distanceToGoal() < b->distanceToGoal(); });
+  solver_ = static_cast<std::size_t>(closest - searches_.begin());
   return (*closest)->approximatePath(validator, ptc);
 }
 }  // namespace gpu_planning_scene::core

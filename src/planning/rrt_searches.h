@@ -34,7 +34,8 @@ class RrtSearches
 
   /// Runs rounds until a search has a solution, `ptc` returns true or the rounds have ended. Returns the solution, or
   /// null. `before_round` is called before each round of the first search, which runs on the calling thread. The other
-  /// searches begin after a few rounds of it, with its roots of that time. An exception of a search ends them all, and
+  /// searches begin after a few rounds of it, with its roots of that time; later roots are those of the first search
+  /// alone. They call isSatisfied() and isStartGoalPairValid() of the goal. An exception of a search ends them all, and
   /// is thrown again here.
   RrtSearch::Path run(const MotionValidator& validator, const ompl::base::GoalSampleableRegion& goal,
                       const Options& options, const std::function<void()>& before_round,
@@ -43,10 +44,9 @@ class RrtSearches
   /// See RrtSearch: over all searches.
   RrtSearch::Path provenPath(const MotionValidator& validator, const ompl::base::PlannerTerminationCondition& ptc);
   /// The path of RrtSearch::approximatePath in the search that came closest to the goal.
-  RrtSearch::Path approximatePath(const MotionValidator& validator,
-                                  const ompl::base::PlannerTerminationCondition& ptc) const;
+  RrtSearch::Path approximatePath(const MotionValidator& validator, const ompl::base::PlannerTerminationCondition& ptc);
 
-  /// Adds the trees of the search with the last solution, or of the first search.
+  /// Adds the trees of the search with the last path, or of the first search.
   void addTo(ompl::base::PlannerData& data) const { searches_[solver_]->addTo(data); }
 
  private:
@@ -57,6 +57,6 @@ class RrtSearches
 
   const ompl::base::Planner& planner_;
   std::vector<std::unique_ptr<RrtSearch>> searches_;
-  std::size_t solver_ = 0;  // index of the search that found the last solution
+  std::size_t solver_ = 0;  // index of the search that found the last path
 };
 }  // namespace gpu_planning_scene::core

@@ -21,8 +21,10 @@ class RrtSearches;
 /// If the trees meet in several places at once, the shortest path is the solution.
 /// The trees grow by motions that MotionValidator::validateCoarsely accepts. When a path is found, its motions are
 /// validated by the validator's rule. A motion that fails is removed from its tree, with everything that grew from it.
-/// If the checks of the validator run side by side (StateChecker::checksSideBySide), several searches with different
-/// random states do too, each on a thread of its own, and the first solution ends them all. Not thread-safe.
+/// If the checks of the validator run side by side (StateChecker::checksSideBySide), a hard problem gets several
+/// searches with different random states by default, each on a thread of its own. The first solution ends them all.
+/// Then isSatisfied() and isStartGoalPairValid() of the goal are called from several threads, also while goals are
+/// sampled. Goals that arrive late reach only one of the searches. Not thread-safe.
 ///
 /// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
 /// Balanced trees: S. M. LaValle: Planning Algorithms. Cambridge University Press, 2006, section 5.5.3.
@@ -45,14 +47,15 @@ class BatchRrtConnect : public ompl::base::Planner
   void setBranches(unsigned int branches);
   unsigned int getBranches() const { return branches_; }
 
-  /// The largest number of searches; 0: one for each core, at most 8. With more than one, the solution depends on which
-  /// search is the fastest, so equal seeds do not give equal paths. Throws ompl::Exception for more than 64.
+  /// The largest number of searches; 0: the default, one for each core and at most 8. With more than one, the solution
+  /// depends on which search is the fastest, so equal seeds do not give equal paths. Throws ompl::Exception for more
+  /// than 64.
   void setSearches(unsigned int searches);
   unsigned int getSearches() const { return searches_; }
 
   /// solve() gives up after this many rounds of the first search, whatever time they take; 0: only the time limits the
-  /// search. If only the rounds limit it, a search that fails gives the same result again with the same seed, unless
-  /// the time for its last proofs ends (see solve()).
+  /// search. If only the rounds limit it, a single search (setSearches) that fails gives the same result again with the
+  /// same seed, unless the time for its last proofs ends (see solve()).
   void setMaxRounds(unsigned int rounds) { max_rounds_ = rounds; }
   unsigned int getMaxRounds() const { return max_rounds_; }
 

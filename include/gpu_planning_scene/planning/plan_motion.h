@@ -36,8 +36,9 @@ struct PlanningQuery
   std::map<std::string, std::string> parameters = {};  ///< of the planner, by OMPL's names
   std::vector<std::string> projection = {};            ///< joints of the planner's projection; empty: the default
   std::optional<Eigen::AlignedBox3d> workspace = {};   ///< see GroupStateSpace
-  /// Above 0: OMPL's random numbers come from this seed. Calls with the same seed give the same path, unless a time
-  /// limit ends a search or a proof, or another thread of the process creates generators of OMPL meanwhile. Calls with
+  /// Above 0: OMPL's random numbers come from this seed, and the batch planner searches once, unless `parameters` say
+  /// otherwise. Calls with the same seed give the same path, unless a time limit ends a search or a proof, several
+  /// searches run, or another thread of the process creates generators of OMPL meanwhile. Calls with
   /// a seed run one after the other.
   std::uint32_t seed = 0;
 };
@@ -60,7 +61,7 @@ struct PlanningResult
   std::vector<std::vector<double>> waypoints;  ///< rows of all variables; none unless Solved or Approximate
   double planning_seconds = 0.0;        ///< with the check of the start and the goals, and the last check of the path
   double simplification_seconds = 0.0;  ///< with the time of PlanningQuery::optimize_seconds
-  double checking_seconds = 0.0;        ///< part of the two times above that the checker took
+  double checking_seconds = 0.0;        ///< of the checker, within the two times above, summed over all searches
   std::uint64_t states_checked = 0;
   std::uint64_t revision = 0;  ///< of the checked scene
 };

@@ -5,7 +5,7 @@
 
 // A body's distance from a joint's axis depends only on the joints between the two. In the centre of the box it is
 // computed. Elsewhere in the box it is larger by at most the length by which these joints move the body on the way from
-// the centre. This length is the bound itself for fewer joints, so the bound is built from the body upwards. Own
+// the centre. A bound of this length is known already, because the bounds are computed from the body upwards. Own
 // method.
 namespace gpu_planning_scene::core
 {

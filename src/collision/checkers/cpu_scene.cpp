@@ -50,6 +50,7 @@ class CpuScene::ScratchLoan
   /// The caller holds the mutex.
   void take(Group& group, const RobotModel& robot)
   {
+    group_ = &group;
     if (group.scratches.empty())
     {
       group.scratches.reserve(++group.scratch_count);  // so that giving it back needs no memory
@@ -61,7 +62,6 @@ class CpuScene::ScratchLoan
       scratch_ = std::move(group.scratches.back());
       group.scratches.pop_back();
     }
-    group_ = &group;
   }
 
   Scratch& operator*() const { return *scratch_; }

@@ -87,8 +87,10 @@ void MotionBatch::add(const double* from, const double* to)
     motion.reject();
   motion.order = bisectionOrder(motion.segments);
   if (options_.rule == MotionRule::Bound)
+  {
     motion.travel = jointTravel(robot_, from, to);
-  motion.angle_rounding = angleRounding(robot_, from, to);
+    motion.angle_rounding = angleRounding(robot_, from, to);
+  }
   for (const JointTravel& joint : motion.travel)
     motion.longest_travel = std::max({motion.longest_travel, joint.length, joint.angle});
   // Outside the joints' limits, and at very large angles, there are no displacement bounds.

@@ -60,7 +60,7 @@ class MotionBatch
     std::vector<std::size_t> order;   // order of the samples, see bisectionOrder
     std::vector<JointTravel> travel;  // travel of each joint over the whole motion (rule Bound)
     double longest_travel = 0.0;      // largest length or angle in `travel`
-    double angle_rounding = 0.0;      // radians, of any angle of a state of the motion
+    double angle_rounding = 0.0;      // radians: largest rounding of an interpolated angle
     std::size_t segments_examined = 0;
     double limit = 1.0;  // the motion is no longer checked beyond this fraction
     double first_invalid = 1.0;

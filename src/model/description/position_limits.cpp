@@ -59,12 +59,14 @@ std::string whyWithoutLimits(const Owner& owner)
   return "";
 }
 
-/// A warning if an angle of more than two turns is a limit of a revolute joint; else empty.
+/// A warning if a limit of a revolute joint may be in degrees, because it is a whole or half number of more than two
+/// turns; else empty.
 std::string mayBeInDegrees(const PositionLimits& limits, const Joint& joint)
 {
   constexpr double kTwoTurns = 4.0 * M_PI;
   for (const std::optional<double>& limit : {limits.min_position, limits.max_position})
-    if (joint.type == JointType::Revolute && limit && std::abs(*limit) > kTwoTurns)
+    if (joint.type == JointType::Revolute && limit && std::abs(*limit) > kTwoTurns &&
+        std::round(2.0 * *limit) == 2.0 * *limit)
       return limits.source + ": a position limit of '" + limits.variable + "' is " + numberText(*limit) +
              " rad, more than two turns; " + numberText(*limit) + " degrees are " + numberText(*limit * M_PI / 180.0) +
              " rad";

@@ -16,7 +16,7 @@ void fillReport(const CheckAnswer& answer, GetReport::Response& response)
   response.lines = describeScene(*answer.scene, report, answer.device);
   if (!report.decided.empty())
     response.lines.emplace_back(
-        "not among the states decided on the CPU: those of large requests, which have a checker of their own");
+        "the states decided on the CPU are those of small requests; another checker decides large requests");
   response.lines.emplace_back("not modelled: padding between links");
   const std::vector<std::string> robot = describeRobot(*answer.scene->robot);
   response.lines.insert(response.lines.end(), robot.begin(), robot.end());

@@ -14,6 +14,7 @@
 #include "model/text/parse_number.h"
 #include "node/messages/requested_states.h"
 #include "node/parameters/parameter_values.h"
+#include "planning/waypoints.h"
 
 namespace gpu_planning_scene::core
 {
@@ -85,6 +86,13 @@ void refuseCostly(const std::map<std::string, std::string>& parameters, double e
                   "; it must be 0, for the planner to choose, or at least " + std::to_string(kLeastRange * extent) +
                   ", a 10,000th of the extent of the group's space");
   }
+}
+/// Whether a whole turn of the variable leads to the same robot state.
+bool isWrapped(const RobotModel& robot, int variable)
+{
+  return std::any_of(
+      robot.joints().begin(), robot.joints().end(),
+      [variable](const Joint& joint) { return !joint.mimic && wrappedAngle(joint) == variable; });
 }
 }  // namespace
 
@@ -212,16 +220,25 @@ std::string startBeyondGroup(const PlanMotion::Request& request, const Snapshot&
     return "";
   const RobotModel& robot = *now.scene->robot;
   const std::vector<int>& of_group = robot.group(request.group).variables;
+  const auto differs = [&](std::size_t i)
+  {
+    const double change = start[i] - now.state[i];
+    return std::abs(isWrapped(robot, static_cast<int>(i)) ? std::remainder(change, 2.0 * M_PI) : change) >
+           kWrittenDecimals;
+  };
   std::vector<std::string> moved;
   for (std::size_t i = 0; i < start.size(); ++i)
-    if (now.known[i] && std::abs(start[i] - now.state[i]) > kWrittenDecimals &&
+    if (now.known[i] && differs(i) &&
         std::find(of_group.begin(), of_group.end(), static_cast<int>(i)) == of_group.end())
       moved.push_back(robot.variables()[i].name + " (" + numberText(start[i]) + " instead of " +
                       numberText(now.state[i]) + ")");
   if (moved.empty())
     return "";
+  const auto is_of_group = [&request](const NamedState& state)
+  { return state.group == request.group && state.name == request.named_start; };
+  const bool has_own = std::any_of(robot.namedStates().begin(), robot.namedStates().end(), is_of_group);
   return "named_start '" + request.named_start + "' also sets variables outside the group '" + request.group +
-         "', which have other values now: " + nameList(moved) +
-         "; to keep them, name the state of the group alone, as " + "GROUP/NAME";
+         "', which have other values now: " + nameList(moved) + "; to keep them, " +
+         (has_own ? "name '" + request.group + "/" + request.named_start + "'" : "give start_names and start");
 }
 }  // namespace gpu_planning_scene::core

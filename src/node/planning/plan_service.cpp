@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <random>
 #include <utility>
 #include <vector>
@@ -185,16 +184,15 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
     warnings.push_back(std::move(base));
   if (std::string beyond = startBeyondGroup(request, now, query.start); !beyond.empty())
     warnings.push_back(std::move(beyond));
-  std::vector<int> columns(query.start.size());
-  std::iota(columns.begin(), columns.end(), 0);
-  std::vector<std::vector<double>> rows = query.goals;
-  rows.push_back(query.start);
-  for (const std::vector<double>& row : rows)
-    if (const auto turned = findManyTurns(*now.scene->robot, columns, row.data(), 1))
-    {
-      warnings.push_back(turned->text);
-      break;
-    }
+  const RobotModel& robot = *now.scene->robot;
+  auto turned = request.start_names.empty()
+                    ? std::nullopt
+                    : findManyTurns(robot, variableIndices(robot, request.start_names), request.start.data(), 1);
+  if (!turned && !request.goal_names.empty())
+    turned = findManyTurns(robot, variableIndices(robot, request.goal_names), request.goals.data(),
+                           request.goals.size() / request.goal_names.size());
+  if (turned)
+    warnings.push_back(turned->text);
   return {now.scene, std::move(query), factory, config.type, std::move(warnings)};
 }
 

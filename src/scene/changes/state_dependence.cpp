@@ -26,9 +26,14 @@ bool isFrameOfRobot(const PlanningScene& scene, const std::string& frame)
 
 bool dependsOnRobotState(const PlanningScene& scene, const SceneChange& change)
 {
-  return !change.state.attached.empty() ||
-         std::any_of(
-             change.objects.begin(), change.objects.end(),
-             [&scene](const ObjectChange& object) { return isFrameOfRobot(scene, object.frame.name); });
+  const auto is_carried_by_state = [](const AttachedChange& attached)
+  {
+    const bool is_in_link = withoutLeadingSlash(attached.object.frame.name) == withoutLeadingSlash(attached.link);
+    return !(is_in_link && attached.object.operation == Operation::Add && !attached.object.shapes.empty());
+  };
+  const auto is_placed_by_state = [&scene](const ObjectChange& object)
+  { return object.operation != Operation::Remove && isFrameOfRobot(scene, object.frame.name); };
+  return std::any_of(change.state.attached.begin(), change.state.attached.end(), is_carried_by_state) ||
+         std::any_of(change.objects.begin(), change.objects.end(), is_placed_by_state);
 }
 }  // namespace gpu_planning_scene::core

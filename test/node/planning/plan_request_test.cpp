@@ -70,7 +70,7 @@ TEST(NamedStart, ThatReplacesKnownValuesOutsideTheGroupGivesAWarning)
   { return startBeyondGroup(request, store.snapshot(), queryFrom(request, store.snapshot(), {}, {}, {}).start); };
   EXPECT_EQ(
       "named_start 'left' also sets variables outside the group 'mast', which have other values now: slide (-1 instead "
-      "of 0.5); to keep them, name the state of the group alone, as GROUP/NAME",
+      "of 0.5); to keep them, give start_names and start",
       warning());
   store.updateState({{"slide", -1.0}});
   EXPECT_EQ("", warning());
