@@ -181,6 +181,7 @@ TEST(BatchRrtConnect, DrawsStatesWithinItsLargestLength)
   planner.setProblemDefinition(robot.problem(kBegin, {kEnd}));
   planner.setup();
   planner.setMaxRounds(100);
+  planner.setSearches(1);
   const double length = 2.4;
   planner.setLargestLength(length);
   planner.solve(ob::plannerNonTerminatingCondition());
