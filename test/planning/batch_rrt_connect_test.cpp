@@ -48,6 +48,7 @@ struct Planning
       problem(robot.problem(start, goals)),
       planner(std::make_shared<BatchRrtConnect>(robot.information()))
   {
+    planner->setSearches(1);
     planner->setProblemDefinition(problem);
     planner->setup();
   }
@@ -109,6 +110,18 @@ TEST(BatchRrtConnect, FindsAPathRoundWallsWithMotionsWithinItsRange)
             planning.robot.information()->distance(planning.path().getStates()[i - 1], planning.path().getStates()[i]),
             planning.planner->getRange() + 1e-9);
     }
+}
+
+TEST(BatchRrtConnect, FindsAPathWithSeveralSearches)
+{
+  for (const unsigned int searches : {0U, 2U, 5U})
+  {
+    Planning planning(kTwoWalls, kLeft, {kRight});
+    planning.planner->setSearches(searches);
+    planning.planner->setRange(0.1);
+    ASSERT_EQ(planning.solve(), ob::PlannerStatus::EXACT_SOLUTION);
+    planning.expectPath(kLeft, kRight);
+  }
 }
 
 TEST(BatchRrtConnect, KeepsTheTreesBalancedWhenOneOfThemIsInAPocket)
@@ -330,7 +343,6 @@ TEST(BatchRrtConnect, RepeatsAPathForASeed)
   {
     ompl::RNG::setSeed(seed);
     Planning planning(kTwoWalls, kLeft, {kRight});
-    planning.planner->setSearches(1);
     EXPECT_EQ(planning.solve(), ob::PlannerStatus::EXACT_SOLUTION);
     return positionsOf(planning.path());
   };
