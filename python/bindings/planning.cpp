@@ -21,6 +21,7 @@
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
+#include "model/joint_limits.h"
 
 namespace gpu_planning_scene::python
 {
@@ -120,6 +121,11 @@ PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>
   query.workspace = workspaceFrom(workspace);
   query.goals = goalsFrom(goals, query, scene->robot);
   query.optimize_seconds = optimize.value;
+  // The planner itself refuses values of the group beyond the limits.
+  if (const std::string outside =
+          core::otherValueOutsideLimits(*scene->robot, scene->robot->group(query.group).variables, query.start.data());
+      !outside.empty())
+    warnOf({"start: " + outside});
   Interrupt interrupt;
   PlanningResult result = withoutLock(
       [&]

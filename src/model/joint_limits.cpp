@@ -1,5 +1,6 @@
 #include "model/joint_limits.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -174,5 +175,19 @@ std::optional<ValueOutsideLimits> findValueOutsideLimits(const RobotModel& robot
   if (outside.count() == 0)
     return findFarTranslation(robot, columns, rows - count * columns.size(), count);
   return ValueOutsideLimits{first_row, outside.text()};
+}
+
+std::string otherValueOutsideLimits(const RobotModel& robot, const std::vector<int>& without, const double* state)
+{
+  std::vector<int> columns;
+  std::vector<double> values;
+  for (int i = 0; i < static_cast<int>(robot.variables().size()); ++i)
+    if (std::find(without.begin(), without.end(), i) == without.end())
+    {
+      columns.push_back(i);
+      values.push_back(state[i]);
+    }
+  const auto outside = findValueOutsideLimits(robot, columns, values.data(), 1);
+  return outside ? outside->text : "";
 }
 }  // namespace gpu_planning_scene::core

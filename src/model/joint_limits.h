@@ -56,6 +56,10 @@ struct ValueOutsideLimits
 std::optional<ValueOutsideLimits> findManyTurns(const RobotModel& robot, const std::vector<int>& columns,
                                                 const double* rows, std::size_t count);
 
+/// The line of findValueOutsideLimits for the variables of a full state that are not in `without`, for example those
+/// that a request does not name; empty if there is none.
+std::string otherValueOutsideLimits(const RobotModel& robot, const std::vector<int>& without, const double* state);
+
 /// findValueOutsideLimits, or else findManyTurns.
 std::optional<ValueOutsideLimits> findDoubtfulValue(const RobotModel& robot, const std::vector<int>& columns,
                                                     const double* rows, std::size_t count);

@@ -166,11 +166,11 @@ class MatrixBuilder
       matrix_.disabled.push_back(pair);
   }
 
-  void check(const BodyPair& pair, double colliding_share)
+  void check(const BodyPair& pair, double colliding_share, std::size_t states)
   {
     ++matrix_.remaining_pairs;
     if (has_old_ && isDisabledBefore(pair[0], pair[1]))
-      matrix_.no_longer_disabled.push_back({pair[0], pair[1], colliding_share});
+      matrix_.no_longer_disabled.push_back({pair[0], pair[1], colliding_share, states});
   }
 
   GeneratedMatrix& matrix() { return matrix_; }
@@ -237,8 +237,7 @@ GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const Ge
   const HitCounts hits = countInRandomStates(*robot, undecided, others, options);
   const std::set<BodyPair> separated = provenByJointRanges(robot, others, trees.forest(), hits, options.proof_tests);
   // Pairs that collide in the default state are only checked in the first random states.
-  const auto all = static_cast<double>(options.samples);
-  const auto first = static_cast<double>(std::min(kStatesAtOnce, options.samples));
+  const std::size_t first = std::min(kStatesAtOnce, options.samples);
 
   MatrixBuilder builder(*robot, options.drop_checked);
   for (const BodyPair& pair : pairs)
@@ -247,7 +246,8 @@ GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const Ge
       continue;
     const auto hit = hits.find(pair);
     const bool at_default = in_default_state.count(pair) != 0;
-    const double share = hit == hits.end() ? 0.0 : static_cast<double>(hit->second) / (at_default ? first : all);
+    const std::size_t states = at_default ? first : options.samples;
+    const double share = hit == hits.end() ? 0.0 : static_cast<double>(hit->second) / static_cast<double>(states);
     DisabledPair found{pair[0], pair[1], DisabledReason::Adjacent};
     found.free_share = 1.0 - share;
     if (adjacent.count(pair) != 0)
@@ -265,9 +265,9 @@ GeneratedMatrix generateMatrix(std::shared_ptr<const RobotModel> robot, const Ge
     }
     else
     {
-      builder.check(pair, share);
+      builder.check(pair, share, states);
       if (at_default)
-        builder.matrix().colliding_in_default_state.push_back({pair[0], pair[1], share});
+        builder.matrix().colliding_in_default_state.push_back({pair[0], pair[1], share, states});
       else if (hit == hits.end())
         builder.matrix().unproven.emplace_back(pair[0], pair[1]);
     }

@@ -35,7 +35,7 @@ struct DisabledPair
   int second;
   DisabledReason reason;
   NeverProof proof = NeverProof::Reach;  ///< for Never
-  double free_share = 0.0;               ///< for Default and Always: the share of the random states without a collision
+  double free_share = 0.0;  ///< for Default and Always: the share of the checked random states without a collision
 };
 
 /// A pair that stays checked.
@@ -43,7 +43,8 @@ struct CheckedLinks
 {
   int first;  ///< link indices, ascending
   int second;
-  double colliding_share;  ///< of the random states
+  double colliding_share;
+  std::size_t states;  ///< random states in which the pair was checked, of which the share is
 };
 
 struct GeneratorOptions

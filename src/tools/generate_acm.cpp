@@ -105,7 +105,8 @@ void printChanges(const RobotModel& robot, const GeneratedMatrix& matrix, bool d
     std::cerr << "the SRDF disables these pairs, but they can collide, so they are checked now:\n";
   for (const CheckedLinks& pair : matrix.no_longer_disabled)
     if (pair.colliding_share > 0.0)
-      std::cerr << names(pair.first, pair.second) << ": " << percent(pair.colliding_share) << " of the random states\n";
+      std::cerr << names(pair.first, pair.second) << ": " << percent(pair.colliding_share) << " of " << pair.states
+                << " random states\n";
   if (without_collision != 0)
     std::cerr << counted(without_collision, "other pair")
               << " that the SRDF disables: checked now, because no proof was found that they never collide\n";
@@ -119,13 +120,13 @@ void printWarningsOf(const RobotModel& robot, const GeneratedMatrix& matrix)
   for (const CheckedLinks& pair : matrix.colliding_in_default_state)
     std::cerr << "  <disable_collisions link1=\"" << robot.links()[static_cast<std::size_t>(pair.first)].name
               << "\" link2=\"" << robot.links()[static_cast<std::size_t>(pair.second)].name << "\" reason=\"User\"/>  "
-              << percent(pair.colliding_share) << " of the random states\n";
+              << percent(pair.colliding_share) << " of " << pair.states << " random states\n";
   for (const DisabledPair& pair : matrix.disabled)
     if (pair.free_share > 0.0 && (pair.reason == DisabledReason::Default || pair.reason == DisabledReason::Always))
       std::cerr << "warning: '" << robot.links()[static_cast<std::size_t>(pair.first)].name << "' and '"
                 << robot.links()[static_cast<std::size_t>(pair.second)].name << "' are disabled as "
                 << nameOf(pair.reason) << ", but they are free in " << percent(pair.free_share)
-                << " of the random states. If they must not collide, add an enable_collisions entry, or give a larger "
+                << " of many random states. If they must not collide, add an enable_collisions entry, or give a larger "
                    "--always-share\n";
 }
 

@@ -78,6 +78,16 @@ TEST_F(JointLimits, AWholeNumberOfManyTurnsOfAContinuousJointMayBeInDegrees)
   EXPECT_EQ(findDoubtfulValue(*robot, pan, typed.data(), 2)->text, found->text);
 }
 
+TEST_F(JointLimits, OtherValuesThanTheGivenOnesAreFoundInAFullState)
+{
+  std::vector<double> state = robot->defaultState();
+  const int arm = robot->variableIndex("arm");
+  state[static_cast<std::size_t>(arm)] = 90.0;
+  EXPECT_EQ(otherValueOutsideLimits(*robot, {arm}, state.data()), "");
+  EXPECT_EQ(otherValueOutsideLimits(*robot, {robot->variableIndex("lift")}, state.data()),
+            "joint 'arm' is 90, outside its limits -1 to 2 rad; values are in radians, and 90 degrees are 1.5708 rad");
+}
+
 TEST(FarTranslations, AreNamedBecauseAnswersAreNotExactThere)
 {
   const auto robot = robotOf(boxLink("base"),

@@ -1,4 +1,5 @@
-// Several searches side by side: the first solution ends them all, and an exception of one of them reaches the caller.
+// Several searches side by side (also with the thread sanitizer): the first solution ends them all, and an exception of
+// one of them reaches the caller.
 
 #include <atomic>
 #include <chrono>

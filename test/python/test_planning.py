@@ -63,6 +63,18 @@ class Planning(Case):
         self.assert_one_line(gps.Error, "^goal 0: up is 1 and at the start 0.1, but group 'arm' does not plan for it",
                              gps.plan_motion, checker, "arm", [0.1, 0.0], [1.0, 0.5])
 
+    def test_a_start_outside_the_limits_beside_the_group_gives_a_warning(self):
+        robot = gps.RobotModel.from_xml(
+            '<robot name="two"><link name="foot"/><link name="mast"/><link name="arm"/>'
+            '<joint name="up" type="prismatic"><parent link="foot"/><child link="mast"/><axis xyz="0 0 1"/>'
+            '<limit lower="0" upper="1" effort="1" velocity="1"/></joint>'
+            '<joint name="turn" type="revolute"><parent link="mast"/><child link="arm"/><axis xyz="0 0 1"/>'
+            '<limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>',
+            '<robot name="two"><group name="lift"><joint name="up"/></group></robot>')
+        checker = gps.StateChecker(gps.PlanningScene(robot), device="cpu")
+        with self.assertWarnsRegex(UserWarning, "start: joint 'turn' is -45, outside its limits -1 to 1 rad"):
+            gps.plan_motion(checker, "lift", [0.1, -45.0], [0.9, -45.0], rule="samples")
+
     def test_a_seed_repeats_a_path(self):
         checker = gps.StateChecker(arm_scene(), device="cpu")
         start, goal = np.array([[0.7, 0.6, 0.6, 0, 0.6, 0, 0.03], [2.5, 0.6, 0.6, 0, 0.6, 0, 0.03]])

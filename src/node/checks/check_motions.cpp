@@ -44,10 +44,10 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         const MotionRule motion_rule = job.motions->rule;
         const std::string assumed_base = now.assumedBase(scene.depends_on_state ? std::vector<int>() : job.columns);
         const auto name_of = [](std::size_t row) { return "motion " + std::to_string(row); };
-        for (const auto& [full, rows] : {std::tie(starts, given.starts), std::tie(ends, given.ends)})
+        for (const std::vector<double>* states : {&starts, &ends})
           if (response.message.empty())
-            response.message = motion_rule == MotionRule::Bound ? beyondLimits(robot, full.data(), count, name_of)
-                                                                : outsideLimits(robot, job.columns, rows, name_of);
+            response.message = motion_rule == MotionRule::Bound ? beyondLimits(robot, states->data(), count, name_of)
+                                                                : outsideLimits(robot, states->data(), count, name_of);
         const bool are_within = response.message.empty();
         for (const std::vector<double>* rows : {&given.starts, &given.ends})
           if (const auto turned = findManyTurns(robot, job.columns, rows->data(), count);

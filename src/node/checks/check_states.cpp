@@ -111,6 +111,9 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
           static OccasionalWarning warning;
           warning.log("check_states: " + response.message);
         }
+        else if (const std::string other = otherValueOutsideLimits(robot, job.columns, now.state.data());
+                 !other.empty())
+          response.message = shortLine("the current state: " + other);
         addWarnings(scene.warnings, response.message);
         addWarning(now.assumedBase(scene.depends_on_state ? std::vector<int>() : set_by_request), response.message);
         job.matrix = scene.matrix;

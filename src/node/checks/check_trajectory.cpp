@@ -143,9 +143,7 @@ CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::
         fill(answer, response);
         response.motion_rule = rule == MotionRule::Bound ? "bound" : "samples";
         response.message = rule == MotionRule::Bound ? beyondLimits(robot, path.data(), parts + 1, rowName)
-                                                     : outsideLimits(
-                                                           robot, trajectory.columns, trajectory.rows,
-                                                           [](std::size_t i) { return rowName(i + 1); });
+                                                     : outsideLimits(robot, path.data(), parts + 1, rowName);
         const bool are_within = response.message.empty();
         addWarning(sidewaysMotion(robot, path.data(), path.data() + width, parts, "part"), response.message);
         if (are_within && rule == MotionRule::Bound)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 
 #include "collision/bounds/reach.h"
@@ -67,10 +68,12 @@ std::string beyondLimits(const RobotModel& robot, const double* states, std::siz
   return "";
 }
 
-std::string outsideLimits(const RobotModel& robot, const std::vector<int>& columns, const std::vector<double>& rows,
+std::string outsideLimits(const RobotModel& robot, const double* states, std::size_t count,
                           const std::function<std::string(std::size_t row)>& name_of)
 {
-  const auto outside = findValueOutsideLimits(robot, columns, rows.data(), rows.size() / columns.size());
+  std::vector<int> columns(robot.variables().size());
+  std::iota(columns.begin(), columns.end(), 0);
+  const auto outside = findValueOutsideLimits(robot, columns, states, count);
   return outside ? name_of(outside->row) + ": " + outside->text : "";
 }
 

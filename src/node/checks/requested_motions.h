@@ -32,9 +32,9 @@ std::pair<MotionCheckerOptions, std::size_t> requestedMotions(const RequestedMot
 std::string beyondLimits(const RobotModel& robot, const double* states, std::size_t count,
                          const std::function<std::string(std::size_t row)>& name_of);
 
-/// A warning if a value that the request gives is outside its joint limits; otherwise empty. For the rule "samples",
-/// which checks such motions. `rows`: rows of values for the variables `columns`.
-std::string outsideLimits(const RobotModel& robot, const std::vector<int>& columns, const std::vector<double>& rows,
+/// A warning if a value is outside its joint limits, also one that the request takes from the current state; otherwise
+/// empty. For the rule "samples", which checks such motions. `states`: `count` full rows.
+std::string outsideLimits(const RobotModel& robot, const double* states, std::size_t count,
                           const std::function<std::string(std::size_t row)>& name_of);
 
 /// A warning if motions are neither proven nor found in collision; otherwise empty. For the rule "bound", and motions

@@ -185,6 +185,10 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
   if (std::string beyond = startBeyondGroup(request, now, query.start); !beyond.empty())
     warnings.push_back(std::move(beyond));
   const RobotModel& robot = *now.scene->robot;
+  if (const std::string outside =
+          otherValueOutsideLimits(robot, robot.group(request.group).variables, query.start.data());
+      !outside.empty())
+    warnings.push_back("the start: " + outside);
   auto turned = request.start_names.empty()
                     ? std::nullopt
                     : findManyTurns(robot, variableIndices(robot, request.start_names), request.start.data(), 1);

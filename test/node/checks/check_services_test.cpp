@@ -682,6 +682,21 @@ TEST_F(Service, ValuesOutsideTheLimitsAreCheckedWithAWarning)
       response.message);
 }
 
+TEST_F(Service, AValueOfTheCurrentStateOutsideItsLimitsIsNamed)
+{
+  store.updateState({{"slide", 0.0}, {"turn", -45.0}});
+  const std::string expected = "joint 'turn' is -45, outside its limits";
+  EXPECT_EQ(0u, answer(request({"slide"}, {0.0})).message.find("the current state: " + expected));
+  EXPECT_EQ("", answer(request({"slide", "turn"}, {0.0, 0.0})).message);
+  CheckMotions::Request motions;
+  motions.joint_names = {"slide"};
+  motions.starts = {0.0};
+  motions.ends = {0.1};
+  motions.resolution = motions.translation_resolution = 0.05;
+  motions.motion_rule = "samples";
+  EXPECT_EQ(0u, services.checkMotions(motions).message.find("motion 0: " + expected));
+}
+
 TEST_F(Service, AReportHasLinesAndNumbers)
 {
   const GetReport::Response response = services.report({});
