@@ -40,7 +40,6 @@ BatchResult CpuChecker::check(const double* states, std::size_t count, const std
 {
   const std::shared_lock<ChangeGate> lock(impl_->gate);
   validateStates(*impl_->on_cpu.scene()->robot, states, count);
-  impl_->on_cpu.prepare(group);
   BatchResult result;
   result.revision = impl_->on_cpu.scene()->revision;
   const auto start = std::chrono::steady_clock::now();

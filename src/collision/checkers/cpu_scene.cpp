@@ -42,7 +42,7 @@ class CpuScene::ScratchLoan
     if (!scratch_)
       return;
     const std::lock_guard<std::mutex> lock(mutex_);
-    group_->scratches.push_back(std::move(scratch_));
+    giveBack();
   }
   ScratchLoan(const ScratchLoan&) = delete;
   ScratchLoan& operator=(const ScratchLoan&) = delete;
@@ -63,6 +63,9 @@ class CpuScene::ScratchLoan
       group.scratches.pop_back();
     }
   }
+
+  /// The caller holds the mutex.
+  void giveBack() { group_->scratches.push_back(std::move(scratch_)); }
 
   Scratch& operator*() const { return *scratch_; }
 
@@ -308,5 +311,6 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
   }
   const std::lock_guard<std::mutex> lock(mutex_);
   loadProofs(*used, count);
+  loan.giveBack();
 }
 }  // namespace gpu_planning_scene::core
