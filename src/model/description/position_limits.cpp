@@ -38,7 +38,7 @@ Owner ownerOf(const RobotTree& tree, const std::string& name)
     if (joint.name == name)
       return {&joint, 0};
     for (int i = 0; !joint.mimic && joint.type != JointType::Fixed && i < variableCount(joint.type); ++i)
-      if (tree.variables[static_cast<std::size_t>(joint.first_variable + i)].name == name)
+      if (tree.variables[static_cast<std::size_t>(joint.first_variable) + static_cast<std::size_t>(i)].name == name)
         return {&joint, i};
   }
   return {};
