@@ -582,7 +582,7 @@ class TurningRod : public testing::Test
     MotionCheckerOptions options;
     options.rule = rule;
     options.steps = {0.02, 0.02};
-    const MotionChecker checker(std::make_shared<CpuChecker>(scene_), scene_->robot, "", options);
+    const MotionChecker checker(std::make_shared<CpuChecker>(scene), scene->robot, "", options);
     return checker.check(&from, &to, 1).front().valid;
   }
 
@@ -602,7 +602,7 @@ class TurningRod : public testing::Test
   }
 
   static constexpr char kWide[] = "<limit lower='-1e10' upper='1e10' effort='1' velocity='1'/>";
-  std::shared_ptr<PlanningScene> scene_;
+  std::shared_ptr<PlanningScene> scene;
 };
 
 TEST_F(TurningRod, IsNotProvenFreeAtAnglesThatDoublesDoNotResolve)
@@ -610,7 +610,7 @@ TEST_F(TurningRod, IsNotProvenFreeAtAnglesThatDoublesDoNotResolve)
   for (const std::string type : {"continuous", "revolute"})
   {
     const auto robot = robotWith(type, "<mimic joint='turn'/>");
-    scene_ = std::make_shared<PlanningScene>(robot);
+    scene = std::make_shared<PlanningScene>(robot);
     for (const double angle : {2e9, -2e9, 1.1e6})
     {
       EXPECT_FALSE(isFree(MotionRule::Bound, angle, angle + 0.1)) << type << " " << angle;
@@ -624,20 +624,20 @@ TEST_F(TurningRod, IsNotProvenFreeAtAnglesThatDoublesDoNotResolve)
 
 TEST_F(TurningRod, IsNotProvenFreeIfAJointThatFollowsItTurnsTooFar)
 {
-  scene_ = std::make_shared<PlanningScene>(robotWith("continuous", "<mimic joint='turn' multiplier='-1000'/>"));
+  scene = std::make_shared<PlanningScene>(robotWith("continuous", "<mimic joint='turn' multiplier='-1000'/>"));
   EXPECT_FALSE(isFree(MotionRule::Bound, 1100.0, 1100.001));
   EXPECT_TRUE(isFree(MotionRule::Bound, 900.0, 900.001));
-  scene_ = std::make_shared<PlanningScene>(robotWith("continuous", "<mimic joint='turn' offset='-2e6'/>"));
+  scene = std::make_shared<PlanningScene>(robotWith("continuous", "<mimic joint='turn' offset='-2e6'/>"));
   EXPECT_FALSE(isFree(MotionRule::Bound, 0.0, 0.001));
 }
 
 TEST_F(TurningRod, TurnsAlsoAsPartOfAPlanarJoint)
 {
-  scene_ = std::make_shared<PlanningScene>(
+  scene = std::make_shared<PlanningScene>(
       robotOf(rod("rod"), "<virtual_joint name='drive' type='planar' parent_frame='world' child_link='rod'/>"));
   MotionCheckerOptions options;
   options.steps = {0.02, 0.02};
-  const MotionChecker checker(std::make_shared<CpuChecker>(scene_), scene_->robot, "", options);
+  const MotionChecker checker(std::make_shared<CpuChecker>(scene), scene->robot, "", options);
   for (const auto& [angle, free] : std::vector<std::pair<double, bool>>{{2e9, false}, {9.9e5, true}})
   {
     const std::vector<double> from = {0.0, 0.0, angle};
