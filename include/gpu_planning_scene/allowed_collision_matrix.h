@@ -30,6 +30,8 @@ class AllowedCollisionMatrix
   /// name: an entry or the default of `body` forbade the contact, and the default of the returned body allows it.
   std::vector<std::string> removeEntry(const std::string& body);
   bool allowed(const std::string& body_1, const std::string& body_2) const;
+  /// The entry of a pair; no value: it has none, so that defaults decide.
+  std::optional<bool> entryOf(const std::string& body_1, const std::string& body_2) const;
 
   std::vector<std::string> bodies() const;             ///< all with an entry or a default, sorted by name
   std::vector<std::string> bodiesWithEntries() const;  ///< all with an entry, sorted by name

@@ -33,8 +33,8 @@ struct MotionCheckerOptions
 {
   MotionRule rule = MotionRule::Bound;
   MotionSteps steps{0.02, 0.02};  ///< largest steps between samples, before any subdivision
-  /// Largest number of samples of a motion. Under MotionRule::Bound, a motion is also rejected if so many segments have
-  /// been examined and a segment must still be halved.
+  /// Largest number of samples of a motion. Under MotionRule::Bound, a motion is also rejected if this number of
+  /// segments has been examined and a segment must still be halved.
   std::size_t max_samples = 20000;
   /// Limit for each call of MotionChecker::check: the number of state checks for all its motions. Motions that are not
   /// decided by then are reported as invalid, with MotionVerdict::given_up.

@@ -56,10 +56,6 @@ struct ValueOutsideLimits
 std::optional<ValueOutsideLimits> findManyTurns(const RobotModel& robot, const std::vector<int>& columns,
                                                 const double* rows, std::size_t count);
 
-/// The line of findValueOutsideLimits for the variables of a full state that are not in `without`, for example those
-/// that a request does not name; empty if there is none.
-std::string otherValueOutsideLimits(const RobotModel& robot, const std::vector<int>& without, const double* state);
-
 /// findValueOutsideLimits, or else findManyTurns.
 std::optional<ValueOutsideLimits> findDoubtfulValue(const RobotModel& robot, const std::vector<int>& columns,
                                                     const double* rows, std::size_t count);
@@ -68,4 +64,8 @@ std::optional<ValueOutsideLimits> findDoubtfulValue(const RobotModel& robot, con
 /// 1e-6 (radians, metres), or beyond kExactRange.
 std::optional<ValueOutsideLimits> findValueOutsideLimits(const RobotModel& robot, const std::vector<int>& columns,
                                                          const double* rows, std::size_t count);
+
+/// The line of findValueOutsideLimits for the variables of a full state that are not in `without`, for example those
+/// that a request does not name; empty if there is none.
+std::string otherValueOutsideLimits(const RobotModel& robot, const std::vector<int>& without, const double* state);
 }  // namespace gpu_planning_scene::core

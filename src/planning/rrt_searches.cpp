@@ -1,10 +1,8 @@
 #include "planning/rrt_searches.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
-#include <thread>
-#include <utility>
+
+#include "planning/other_searches.h"
 
 namespace gpu_planning_scene::core
 {
@@ -37,89 +35,29 @@ RrtSearch::Path RrtSearches::run(const MotionValidator& validator, const ob::Goa
                                  const Options& options, const std::function<void()>& before_round,
                                  const ob::PlannerTerminationCondition& ptc)
 {
+  OtherSearches others;
+  // The other searches do not ask `ptc`, which need not be thread-safe.
+  const auto end = ob::plannerOrTerminationCondition(ptc, others.hasEnded());
+  const std::size_t alone = searches_.size() > 1 ? 0 : kRoundsAlone;
   solver_ = 0;
-  const std::size_t alone = options.count > 1 && searches_.size() > 1 ? 0 : kRoundsAlone;
-  std::size_t rounds = 0;
-  const auto is_over = [&] { return ptc || (options.max_rounds != 0 && rounds == options.max_rounds); };
-  for (; options.count == 1 || rounds < alone; ++rounds)
+  RrtSearch::Path path;
+  for (std::size_t round = 0; !path && !end && (options.max_rounds == 0 || round < options.max_rounds); ++round)
   {
-    if (is_over())
-      return nullptr;
+    if (round == alone && options.count > 1)
+    {
+      addSearches(options.count);
+      others.start(options.count, [&](std::size_t search, const ob::PlannerTerminationCondition& end_of_others)
+                   { return searches_[search]->runRound(validator, goal, options.limits, end_of_others); });
+    }
     before_round();
-    if (RrtSearch::Path path = first().runRound(validator, goal, options.limits, ptc))
-      return path;
+    path = first().runRound(validator, goal, options.limits, end);
   }
-  if (is_over())
-    return nullptr;
-  return runBesideOthers(validator, goal, options, rounds, before_round, ptc);
-}
-
-/// `rounds`: of the first search so far.
-RrtSearch::Path RrtSearches::runBesideOthers(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
-                                             const Options& options, std::size_t rounds,
-                                             const std::function<void()>& before_round,
-                                             const ob::PlannerTerminationCondition& ptc)
-{
-  addSearches(options.count);
-  std::vector<RrtSearch::Path> paths(options.count);
-  std::vector<std::exception_ptr> errors(options.count);
-  std::atomic<bool> has_ended{false};
-  // Only the calling thread asks `ptc`, which need not be thread-safe.
-  const ob::PlannerTerminationCondition end_of_others([&has_ended] { return has_ended.load(); });
-  const auto end_of_first = ob::plannerOrTerminationCondition(ptc, end_of_others);
-  const auto run_other = [&](std::size_t i)
-  {
-    try
-    {
-      while (!paths[i] && !has_ended)
-        paths[i] = searches_[i]->runRound(validator, goal, options.limits, end_of_others);
-    }
-    catch (...)
-    {
-      errors[i] = std::current_exception();
-    }
-    has_ended = true;
-  };
-  const auto run_first = [&]
-  {
-    try
-    {
-      for (; !paths[0] && !end_of_first && (options.max_rounds == 0 || rounds < options.max_rounds); ++rounds)
-      {
-        before_round();
-        paths[0] = first().runRound(validator, goal, options.limits, end_of_first);
-      }
-    }
-    catch (...)
-    {
-      errors[0] = std::current_exception();
-    }
-    has_ended = true;
-  };
-  std::vector<std::thread> threads;
-  threads.reserve(options.count);
-  try
-  {
-    for (std::size_t i = 1; i < options.count; ++i)
-      threads.emplace_back(run_other, i);
-  }
-  catch (const std::exception&)
-  {
-    // No thread, or no memory for one. The searches that have begun go on: destroying a running std::thread ends the
-    // process.
-  }
-  run_first();
-  for (std::thread& thread : threads)
-    thread.join();
-  for (const std::exception_ptr& error : errors)
-    if (error)
-      std::rethrow_exception(error);
-  const auto found =
-      std::find_if(paths.begin(), paths.end(), [](const RrtSearch::Path& path) { return path != nullptr; });
-  if (found == paths.end())
-    return nullptr;
-  solver_ = static_cast<std::size_t>(found - paths.begin());
-  return *found;
+  others.end();
+  const OtherSearches::Solution other = others.solution();
+  if (path || !other.path)
+    return path;
+  solver_ = other.search;
+  return other.path;
 }
 
 RrtSearch::Path RrtSearches::provenPath(const MotionValidator& validator, const ob::PlannerTerminationCondition& ptc)

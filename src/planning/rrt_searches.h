@@ -50,9 +50,6 @@ class RrtSearches
   void addTo(ompl::base::PlannerData& data) const { searches_[solver_]->addTo(data); }
 
  private:
-  RrtSearch::Path runBesideOthers(const MotionValidator& validator, const ompl::base::GoalSampleableRegion& goal,
-                                  const Options& options, std::size_t rounds, const std::function<void()>& before_round,
-                                  const ompl::base::PlannerTerminationCondition& ptc);
   void addSearches(std::size_t count);
 
   const ompl::base::Planner& planner_;

@@ -64,6 +64,15 @@ bool AllowedCollisionMatrix::allowed(const std::string& body_1, const std::strin
   return row(body_1).allowed(row(body_2));
 }
 
+std::optional<bool> AllowedCollisionMatrix::entryOf(const std::string& body_1, const std::string& body_2) const
+{
+  const auto known = bodies_.find(body_1);
+  if (known == bodies_.end())
+    return std::nullopt;
+  const auto entry = known->second.entries.find(body_2);
+  return entry == known->second.entries.end() ? std::nullopt : std::optional<bool>(entry->second);
+}
+
 std::vector<std::string> AllowedCollisionMatrix::bodies() const
 {
   std::vector<std::string> names;

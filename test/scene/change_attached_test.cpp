@@ -203,37 +203,41 @@ TEST_F(ChangeAttached, AnUnknownTouchLinkIsLeftOutWithAWarning)
   EXPECT_TRUE(warned("touch link of object 'a' ignored: the robot has no link 'card'; did you mean 'cart'?"));
 }
 
-TEST_F(ChangeAttached, AMatrixThatOnlyAllowsOtherPairsGivesNoWarning)
+class MatrixAndCarrier : public ChangeAttached
 {
-  change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
-  SceneChange allow;
-  allow.is_diff = true;
-  allow.matrix = scene_.allowed_collisions;
-  allow.matrix->setEntry("a", "table", true);
-  allow.matrix->setEntry("pole", "rail", true);
-  apply(allow);
+ protected:
+  MatrixAndCarrier() { change(objectChange(Operation::Add, "a", {boxAt(0.1)})); }
+
+  /// Sets an entry of the scene's matrix.
+  void setEntry(const std::string& body_1, const std::string& body_2, bool allowed)
+  {
+    SceneChange matrix;
+    matrix.is_diff = true;
+    matrix.matrix = scene_.allowed_collisions;
+    matrix.matrix->setEntry(body_1, body_2, allowed);
+    apply(matrix);
+  }
+};
+
+TEST_F(MatrixAndCarrier, AMatrixThatOnlyAllowsOtherPairsGivesNoWarning)
+{
+  setEntry("a", "table", true);
+  setEntry("pole", "rail", true);
   change(attachedChange(Operation::Add, "a", "pole"));
   EXPECT_FALSE(warned("forbids"));
 }
 
-TEST_F(ChangeAttached, AMatrixThatForbidsTheCarryingLinkIsAWarning)
+TEST_F(MatrixAndCarrier, AMatrixThatForbidsTheCarryingLinkIsAWarning)
 {
-  change(objectChange(Operation::Add, "a", {boxAt(0.1)}));
-  SceneChange forbid;
-  forbid.is_diff = true;
-  forbid.matrix = scene_.allowed_collisions;
-  forbid.matrix->setEntry("a", "pole", false);
-  apply(forbid);
+  setEntry("a", "pole", false);
   EXPECT_FALSE(warned("forbids"));
   change(attachedChange(Operation::Add, "a", "pole"));
   EXPECT_TRUE(
       warned("the allowed-collision matrix forbids object 'a' to touch link 'pole', but this pair is not checked"));
-  apply(forbid);
+  setEntry("a", "pole", false);
   EXPECT_FALSE(warned("forbids object 'a'")) << "it forbade this before";
-  SceneChange allow = forbid;
-  allow.matrix->setEntry("a", "pole", true);
-  apply(allow);
-  apply(forbid);
+  setEntry("a", "pole", true);
+  setEntry("a", "pole", false);
   EXPECT_TRUE(warned("forbids object 'a'"));
   AttachedChange touching = attachedChange(Operation::Append, "a", "pole");
   touching.touch_links = {"pole"};

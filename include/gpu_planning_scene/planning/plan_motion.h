@@ -38,8 +38,8 @@ struct PlanningQuery
   std::optional<Eigen::AlignedBox3d> workspace = {};   ///< see GroupStateSpace
   /// Above 0: OMPL's random numbers come from this seed, and the batch planner searches once, unless `parameters` say
   /// otherwise. Calls with the same seed give the same path, unless a time limit ends a search or a proof, several
-  /// searches run, or another thread of the process creates generators of OMPL meanwhile. Calls with
-  /// a seed run one after the other.
+  /// searches run, or another thread of the process creates generators of OMPL meanwhile. Calls with a seed run one
+  /// after the other.
   std::uint32_t seed = 0;
 };
 

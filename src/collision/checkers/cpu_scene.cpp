@@ -145,6 +145,8 @@ void CpuScene::prepare(Group& group)
 
 void CpuScene::prepareOutside(const std::string& name, Group& group)
 {
+  if (group.outside)
+    return;
   CheckerOptions options = options_;
   options.reductions.reach = false;
   const auto problem = std::make_shared<const CollisionProblem>(ProblemMaker(options).make(*scene_, name, nullptr));
@@ -263,6 +265,16 @@ bool CpuScene::countSlice(std::size_t count, Group& group, Scratch& scratch, boo
   return true;
 }
 
+/// Whether the problem is valid for all states.
+bool CpuScene::areValid(const double* states, std::size_t count, const CollisionProblem& problem) const
+{
+  const std::size_t width = scene_->robot->variables().size();
+  for (std::size_t i = 0; i < count; ++i)
+    if (!isValidFor(problem, states + i * width))
+      return false;
+  return true;
+}
+
 void CpuScene::check(const double* states, std::size_t count, const std::string& name, BatchResult& result,
                      const Margins* margins)
 {
@@ -279,13 +291,14 @@ void CpuScene::check(const double* states, std::size_t count, const std::string&
       return;
     }
     prepare(group);
-    const std::size_t width = scene_->robot->variables().size();
-    for (std::size_t i = 0; i < count && !margins && !group.outside; ++i)
-      if (!isValidFor(*group.problem, states + i * width))
-        prepareOutside(name, group);
     loan.take(group, *scene_->robot);
     by_lanes = countSlice(std::min(kStatesPerSlice, count), group, *loan, margins != nullptr);
     used = &group;
+  }
+  if (!margins && !areValid(states, count, *used->problem))
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    prepareOutside(name, *used);
   }
   result.valid.assign(count, 1);
   result.colliding.assign(count, kNoPair);

@@ -102,6 +102,7 @@ class CpuScene
   void prepareOutside(const std::string& name, Group& group);
   bool countSlice(std::size_t count, Group& group, Scratch& scratch, bool has_margins);
 
+  bool areValid(const double* states, std::size_t count, const CollisionProblem& problem) const;
   void checkBlock(const double* states, std::size_t begin, std::size_t end, const Group& group, const Margins* margins,
                   bool by_lanes, Scratch& scratch, BatchResult& result) const;
   void checkRow(const double* state, std::size_t row, const Group& group, const Margins* margins, Scratch& scratch,

@@ -31,17 +31,19 @@ constexpr double kLeastTravel = 1e-7;  // radians and metres
 // free, and a proof includes the samples in its segment.
 constexpr std::size_t kBeforeProof = 8;
 
-/// An upper bound of the rounding, in radians, of the angles between two states that a joint or its follower can have.
+/// An upper bound, in radians, of the rounding of a joint's angle in a state between the two states.
 double angleRounding(const RobotModel& robot, const double* from, const double* to)
 {
   double largest = 0.0;
   for (const Joint& joint : robot.joints())
-    if (joint.type == JointType::Revolute || joint.type == JointType::Continuous)
-      for (const double* state : {from, to})
-        largest = std::max(largest, std::abs(joint.multiplier * state[joint.first_variable] + joint.offset));
-  for (const Joint& joint : robot.joints())
-    if (joint.type == JointType::Planar)
-      largest = std::max({largest, std::abs(from[joint.first_variable + 2]), std::abs(to[joint.first_variable + 2])});
+  {
+    const bool is_planar = joint.type == JointType::Planar;
+    if (!is_planar && joint.type != JointType::Revolute && joint.type != JointType::Continuous)
+      continue;
+    const int angle = joint.first_variable + (is_planar ? 2 : 0);
+    for (const double* state : {from, to})
+      largest = std::max(largest, std::abs(joint.multiplier * state[angle] + joint.offset));
+  }
   return 4.0 * std::numeric_limits<double>::epsilon() * largest;
 }
 

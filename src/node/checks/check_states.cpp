@@ -103,17 +103,18 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         if (!is_of_current_state)
           requireVariableOfGroup(robot, request.group, job.columns);
         const std::size_t count = job.states.size() / job.columns.size();
-        // The yaw of a current state may be that of odometry, of any number of turns.
+        // The yaw of a current state may come from odometry, so it may be any number of turns.
         const auto find = is_of_current_state ? findValueOutsideLimits : findDoubtfulValue;
         if (const auto outside = find(robot, job.columns, job.states.data(), count))
-        {
           response.message = shortLine("state " + std::to_string(outside->row) + ": " + outside->text);
-          static OccasionalWarning warning;
-          warning.log("check_states: " + response.message);
-        }
         else if (const std::string other = otherValueOutsideLimits(robot, job.columns, now.state.data());
                  !other.empty())
           response.message = shortLine("the current state: " + other);
+        if (!response.message.empty())
+        {
+          static OccasionalWarning warning;
+          warning.log("check_states: " + response.message);
+        }
         addWarnings(scene.warnings, response.message);
         addWarning(now.assumedBase(scene.depends_on_state ? std::vector<int>() : set_by_request), response.message);
         job.matrix = scene.matrix;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "gpu_planning_scene/error.h"
 #include "scene/changes/attach.h"
@@ -115,20 +116,11 @@ void SceneChanger::appendToAttached(AttachedObject& attached, const AttachedChan
 
 void SceneChanger::warnOfForbiddenCarrier(const AttachedObject& attached)
 {
-  const AllowedCollisionMatrix& matrix = result_.scene.allowed_collisions;
   const std::string& id = attached.object.id;
   const std::string& link = linkName(attached.link);
   const std::vector<int>& touching = attached.touch_links;
-  if (matrix.allowed(id, link) || std::find(touching.begin(), touching.end(), attached.link) != touching.end())
-    return;
-  const std::vector<std::string> named = matrix.bodiesWithEntries();
-  if (!std::binary_search(named.begin(), named.end(), id) || !std::binary_search(named.begin(), named.end(), link))
-    return;
-  // With these defaults, only an entry of the pair forbids it.
-  AllowedCollisionMatrix with_defaults = matrix;
-  with_defaults.setDefault(id, true);
-  with_defaults.setDefault(link, true);
-  if (with_defaults.allowed(id, link))
+  const std::optional<bool> entry = result_.scene.allowed_collisions.entryOf(id, link);
+  if (!entry || *entry || std::find(touching.begin(), touching.end(), attached.link) != touching.end())
     return;
   result_.warnings.push_back(
       "the allowed-collision matrix forbids object '" + id + "' to touch link '" + link +

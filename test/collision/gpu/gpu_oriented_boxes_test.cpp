@@ -79,7 +79,7 @@ class GpuOrientedBoxesTest : public testing::Test
     return corners;
   }
 
-  /// What the outward rounding of a node's oriented box may add to halfSurface().
+  /// The largest addition of the outward rounding of a node's oriented box to its halfSurface().
   static double surfaceOfRounding(const Node& node)
   {
     const Vector3d half(node.half[0], node.half[1], node.half[2]);
