@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <functional>
 #include <thread>
@@ -96,21 +97,19 @@ TEST(Concurrency, ChecksOfTheCpuRunSideBySide)
 {
   const Scenes scenes;
   CpuChecker checker(scenes.of(1));
-  const std::vector<double> many(300'000, 0.1);
+  // So many states that their check takes about a second.
+  const std::vector<double> some(100'000, 0.1);
+  const double seconds = checker.check(some.data(), some.size()).seconds;
+  const std::vector<double> many(static_cast<std::size_t>(100'000.0 / std::clamp(seconds, 0.01, 1.0)), 0.1);
   const double one = 0.8;
-  std::atomic<bool> is_running{false};
-  std::thread other(
-      [&]
-      {
-        is_running = true;
-        EXPECT_EQ(checker.check(many.data(), many.size()).valid.back(), 1);
-        is_running = false;
-      });
-  while (!is_running)
-    std::this_thread::yield();
+  double seconds_of_many = 0.0;
+  std::thread other([&] { seconds_of_many = checker.check(many.data(), many.size()).seconds; });
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the other check has begun
+  const auto begin = std::chrono::steady_clock::now();
   EXPECT_EQ(checker.check(&one, 1).valid.front(), 0);
-  EXPECT_TRUE(is_running) << "the check waited for another one";
+  const double seconds_of_one = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   other.join();
+  EXPECT_LT(seconds_of_one, 0.5 * seconds_of_many) << "the check waited for another one";
 }
 
 /// So many states that proofs are made while the threads check. A check may begin with them and another one without.
