@@ -12,7 +12,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/joint_limits.h"
 #include "model/text/utf8.h"
-#include "scene/rigid_pose.h"
+#include "model/rigid_pose.h"
 
 namespace gpu_planning_scene::python
 {

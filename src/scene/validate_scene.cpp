@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "gpu_planning_scene/error.h"
-#include "scene/rigid_pose.h"
+#include "model/rigid_pose.h"
 
 // Everything is checked in each scene, except meshes that were found valid before. They are known by their addresses; a
 // weak pointer shows whether an address still belongs to the same mesh. Own method.

@@ -104,6 +104,15 @@ RealRobot panda()
           {{"moveit_resources_panda_description", folder + "description"}}};
 }
 
+RealRobot pr2()
+{
+  const std::string folder = chosenOr(GPS_SHARED_DIR) + "/moveit/resources/pr2_description";
+  return {"PR2",
+          folder + "/urdf/robot.xml",
+          folder + "/srdf/robot.xml",
+          {{"moveit_resources_pr2_description", folder}}};
+}
+
 RealRobot g1()
 {
   return {"G1", chosenOr(GPS_SHARED_DIR) + "/cases/g1/g1_29dof.urdf", "", {}};

@@ -39,6 +39,9 @@ RealRobot ur5Spheres();
 /// Panda with the SRDF of MoveIt's tests, whose virtual joint is floating.
 RealRobot panda();
 
+/// PR2 with the SRDF of MoveIt's tests, whose virtual joint is planar.
+RealRobot pr2();
+
 /// A humanoid, many of whose meshes have open seams.
 RealRobot g1();
 

@@ -7,7 +7,7 @@
 #include "collision/geometry/shape_bounds.h"
 #include "model/joint_limits.h"
 #include "model/math_constants.h"
-#include "scene/rigid_pose.h"
+#include "model/rigid_pose.h"
 
 // Covers each shape with balls, and sweeps the balls through the joints from the link up to the planning frame. After
 // each joint, neighbouring balls are merged until kMaxBalls remain. The balls are merged as in a top-down build of a

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "collision/geometry/shape_bounds.h"
-#include "scene/rigid_pose.h"
+#include "model/rigid_pose.h"
 
 // Compares the swept bodies of Reach with each other and with the objects of the world. A new scene invalidates only
 // the rows and columns of the objects that have changed. Own method. MoveIt's Setup Assistant leaves out pairs that

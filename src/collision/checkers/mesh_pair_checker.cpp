@@ -6,7 +6,7 @@
 #include "collision/gpu/gpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "model/seconds_since.h"
-#include "scene/rigid_pose.h"
+#include "model/rigid_pose.h"
 
 namespace gpu_planning_scene::core
 {

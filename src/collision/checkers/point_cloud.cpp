@@ -11,7 +11,7 @@
 #include "collision/geometry/shape_bounds.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
-#include "scene/rigid_pose.h"
+#include "model/rigid_pose.h"
 
 // Sorts the points into voxels, makes a cube for each occupied voxel, and removes the cubes that touch the robot. The
 // grid of voxels is that of PCL's VoxelGrid filter (R. B. Rusu, S. Cousins: 3D is here: Point Cloud Library. ICRA

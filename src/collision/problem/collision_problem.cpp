@@ -7,7 +7,7 @@
 #include "collision/problem/checked_pairs.h"
 #include "collision/problem/shape_key.h"
 #include "gpu_planning_scene/error.h"
-#include "scene/rigid_pose.h"
+#include "model/rigid_pose.h"
 
 // A table of shapes finds equal shapes, which share a tree. The instances are those of all groups; the instance pairs
 // are only those of one group. Own method.

@@ -8,7 +8,7 @@
 #include "scene/changes/matrix_entries.h"
 #include "scene/changes/octree_cubes.h"
 #include "scene/frame.h"
-#include "scene/rigid_pose.h"
+#include "model/rigid_pose.h"
 #include "scene/shape_order.h"
 #include "scene/solid_rules.h"
 

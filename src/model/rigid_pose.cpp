@@ -1,4 +1,4 @@
-#include "scene/rigid_pose.h"
+#include "model/rigid_pose.h"
 
 #include <limits>
 
