@@ -45,6 +45,7 @@ struct JointConstraint
   int variable = -1;
   double lower = 0.0;  ///< radians or metres
   double upper = 0.0;
+  bool is_turn = false;  ///< whole turns do not matter: an angle of a continuous or planar joint
 };
 
 /// Conditions on a robot state, all of which must hold. As moveit_msgs/Constraints.
@@ -57,6 +58,9 @@ struct KinematicConstraints
   std::vector<OrientationConstraint> orientations;
   std::vector<JointConstraint> joints;
 
+  /// Adds the range of a variable of this robot.
+  void addJoint(const RobotModel& robot, int variable, double lower, double upper);
+
   bool isEmpty() const { return positions.empty() && orientations.empty() && joints.empty(); }
 
   /// A frame of a link has a pose. `frame`: in the link's frame. `pose`: in the planning frame. The distance of the
@@ -64,6 +68,9 @@ struct KinematicConstraints
   /// `orientation_tolerance` (radians).
   static KinematicConstraints pose(int link, const Eigen::Isometry3d& frame, const Eigen::Isometry3d& pose,
                                    double position_tolerance, double orientation_tolerance);
+
+  /// Adds the constraints of another set.
+  void append(const KinematicConstraints& other);
 
   /// Moves values outside the ranges of `joints` to the nearest end of their range.
   void clampJoints(double* state) const;

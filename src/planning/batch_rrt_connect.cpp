@@ -22,6 +22,9 @@ namespace ob = ompl::base;
 // motions find a solution with far fewer checked states. They need more motions, but checks in bulk make these cheap.
 constexpr double kRangeOfExtent = 0.04;
 
+// The same under path constraints. A straight motion leaves the constraints by the square of its length.
+constexpr double kConstrainedRange = 0.01;
+
 // Number of goal states taken at first, and at most in one round. More follow as the goal tree grows, as in OMPL's
 // RRTConnect.
 constexpr std::size_t kFirstGoals = 8;
@@ -74,9 +77,9 @@ void BatchRrtConnect::setSearches(unsigned int searches)
 void BatchRrtConnect::setup()
 {
   Planner::setup();
-  bulkValidatorOf(*si_, getName().c_str());
+  const MotionValidator& validator = bulkValidatorOf(*si_, getName().c_str());
   if (range_ <= 0.0)
-    range_ = kRangeOfExtent * si_->getMaximumExtent();
+    range_ = (validator.isConstrained() ? kConstrainedRange : kRangeOfExtent) * si_->getMaximumExtent();
 }
 
 void BatchRrtConnect::clear()

@@ -31,6 +31,9 @@ constexpr std::size_t kBranchesBetweenStops = 16;
 // at once.
 constexpr std::size_t kPiecesBetweenRoots = 32;
 
+// A projection that moves a state by more than this part of the range has left the neighbourhood of its motion.
+constexpr double kLongestProjected = 2.0;
+
 // Draws of a random state within the largest length. If that is little more than the distance of the roots, few states
 // are within it, and the last draw is taken.
 constexpr std::size_t kDrawsWithinLength = 128;
@@ -79,14 +82,49 @@ ompl::base::State* BidirectionalTree::scratch()
   return scratch_[scratch_used_++];
 }
 
+/// The next motions towards the target of a connection, under path constraints: each step towards the target is
+/// projected onto the constraints, and the motions end where a projection fails or comes no nearer to the target.
+/// D. Berenson, S. Srinivasa, D. Ferguson, J. Kuffner: Manipulation planning on constraint manifolds. ICRA 2009
+/// (ConstrainedExtend).
+void BidirectionalTree::addProjected(const MotionValidator& validator, const ompl::base::State* to, bool reaches,
+                                     double range, std::size_t max_pieces, Attempt& attempt)
+{
+  const ompl::base::State* last = attempt.connection.from->state;
+  double distance = information_->distance(last, to);
+  while (attempt.states.size() < max_pieces)
+  {
+    if (reaches && distance <= range)
+    {
+      attempt.states.push_back(to);
+      return;
+    }
+    ompl::base::State* state = scratch();
+    information_->getStateSpace()->interpolate(last, to, std::min(1.0, range / distance), state);
+    if (!validator.project(state))
+      return;
+    const double rest = information_->distance(state, to);
+    if (rest >= distance || information_->distance(last, state) > kLongestProjected * range)
+      return;
+    attempt.states.push_back(state);
+    last = state;
+    distance = rest;
+  }
+}
+
 /// The next motions towards the target of a connection.
-BidirectionalTree::Attempt BidirectionalTree::pieces(Connection connection, double range)
+BidirectionalTree::Attempt BidirectionalTree::pieces(const MotionValidator& validator, Connection connection,
+                                                     double range)
 {
   if (!connection.from)
     connection.from = &trees_[connection.side].nearest(connection.to->state);
+  Attempt attempt{connection, {}};
+  if (validator.isConstrained())
+  {
+    addProjected(validator, connection.to->state, true, range, connection.max_pieces, attempt);
+    return attempt;
+  }
   const double distance = information_->distance(connection.from->state, connection.to->state);
   const double count = std::max(1.0, std::ceil(distance / range));
-  Attempt attempt{connection, {}};
   while (attempt.states.size() < connection.max_pieces)
   {
     const double piece = static_cast<double>(attempt.states.size()) + 1.0;
@@ -132,7 +170,8 @@ double BidirectionalTree::lengthThrough(const ompl::base::State* state) const
   return sum;
 }
 
-BidirectionalTree::Attempt BidirectionalTree::randomBranch(Side side, const Limits& limits)
+BidirectionalTree::Attempt BidirectionalTree::randomBranch(const MotionValidator& validator, Side side,
+                                                           const Limits& limits)
 {
   const double range = limits.range;
   ompl::base::State* state = scratch();
@@ -141,6 +180,12 @@ BidirectionalTree::Attempt BidirectionalTree::randomBranch(Side side, const Limi
   for (std::size_t i = 1; is_limited && i < kDrawsWithinLength && lengthThrough(state) >= limits.largest_length; ++i)
     sampler_->sampleUniform(state);
   const Vertex& from = trees_[side].nearest(state);
+  if (validator.isConstrained())
+  {
+    Attempt attempt{{side, &from, nullptr, 1}, {}};
+    addProjected(validator, state, false, range, 1, attempt);
+    return attempt;
+  }
   const double distance = information_->distance(from.state, state);
   if (distance > range)
     information_->getStateSpace()->interpolate(from.state, state, range / distance, state);
@@ -165,13 +210,13 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
   const Side side = growingSide();
   std::vector<Attempt> attempts;
   for (const Connection& connection : connections_)
-    attempts.push_back(pieces(connection, limits.range));
+    attempts.push_back(pieces(validator, connection, limits.range));
   const std::size_t branches = branchesOfRound(limits.branches);
   for (std::size_t i = 0; i < branches; ++i)
   {
     if (i % kBranchesBetweenStops == kBranchesBetweenStops - 1 && ptc)
       break;
-    attempts.push_back(randomBranch(side, limits));
+    attempts.push_back(randomBranch(validator, side, limits));
   }
 
   // The motions get the direction that they will have in the path.
@@ -201,7 +246,7 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
     first += attempt.states.size();
     if (!connection.to && done != 0)
       connections_.push_back({otherThan(connection.side), nullptr, &tip, 1});
-    if (!connection.to || done < attempt.states.size())
+    if (!connection.to || attempt.states.empty() || done < attempt.states.size())
       continue;
     if (attempt.states.back() == connection.to->state)
       meetings.push_back(connection.side == Start ? Meeting{&tip, connection.to} : Meeting{connection.to, &tip});

@@ -82,8 +82,10 @@ class BidirectionalTree
 
   Side growingSide();
   std::size_t branchesOfRound(std::size_t max_branches) const;
-  Attempt pieces(Connection connection, double range);
-  Attempt randomBranch(Side side, const Limits& limits);
+  void addProjected(const MotionValidator& validator, const ompl::base::State* to, bool reaches, double range,
+                    std::size_t max_pieces, Attempt& attempt);
+  Attempt pieces(const MotionValidator& validator, Connection connection, double range);
+  Attempt randomBranch(const MotionValidator& validator, Side side, const Limits& limits);
   double lengthThrough(const ompl::base::State* state) const;
   const Vertex& advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done);
   ompl::base::State* scratch();

@@ -51,6 +51,15 @@ Fault outsideOfProof(const RobotModel& robot, const double* row)
           "out of bounds: " + outside.text() + "; the motion rule \"bound\" proves no motion there"};
 }
 
+Fault outsideOfConstraints(const PathConstraints& constraints, const double* row, bool is_start)
+{
+  const ConstraintViolation violation = constraints.violation(row);
+  if (violation.isNone())
+    return {};
+  return {is_start ? PlanningStatus::StartViolatesConstraints : PlanningStatus::GoalViolatesConstraints,
+          "outside the path constraints: " + violation.text()};
+}
+
 /// The row of the start, then the rows of the goals. Variables outside the group have the values of the start.
 std::vector<double> rowsOf(const PlanningQuery& query, const GroupStateSpace& space)
 {
@@ -66,7 +75,8 @@ std::vector<double> rowsOf(const PlanningQuery& query, const GroupStateSpace& sp
 }
 
 std::vector<Fault> faultsOf(const PlanningScene& scene, StateChecker& checker, const GroupStateSpace& space,
-                            const PlanningQuery& query, const std::vector<double>& rows)
+                            const PlanningQuery& query, const std::vector<double>& rows,
+                            const PathConstraints* constraints)
 {
   const std::size_t width = query.start.size();
   const std::size_t count = query.goals.size() + 1;
@@ -84,17 +94,19 @@ std::vector<Fault> faultsOf(const PlanningScene& scene, StateChecker& checker, c
       fault = {
           i == 0 ? PlanningStatus::StartInCollision : PlanningStatus::GoalInCollision,
           "in collision: " + scene.bodyName(found.colliding[i][0]) + " and " + scene.bodyName(found.colliding[i][1])};
+    if (fault.message.empty() && constraints)
+      fault = outsideOfConstraints(*constraints, row, i == 0);
   }
   return faults;
 }
 }  // namespace
 
 CheckedEndpoints checkEndpoints(const PlanningScene& scene, StateChecker& checker, const ob::StateSpacePtr& space,
-                                const PlanningQuery& query)
+                                const PlanningQuery& query, const PathConstraints* constraints)
 {
   const auto& group_space = *space->as<GroupStateSpace>();
   const std::vector<double> rows = rowsOf(query, group_space);
-  const std::vector<Fault> faults = faultsOf(scene, checker, group_space, query, rows);
+  const std::vector<Fault> faults = faultsOf(scene, checker, group_space, query, rows, constraints);
   CheckedEndpoints endpoints;
   if (!faults.front().message.empty())
     return {faults.front().status, "the start is " + faults.front().message, {}};
@@ -104,7 +116,7 @@ CheckedEndpoints checkEndpoints(const PlanningScene& scene, StateChecker& checke
       endpoints.goals.emplace_back(space);
       group_space.copyFromRow(rows.data() + i * query.start.size(), endpoints.goals.back().get());
     }
-  if (endpoints.goals.empty())
+  if (endpoints.goals.empty() && query.goal_regions.empty())
   {
     endpoints.status = faults[1].status;
     endpoints.message = (query.goals.size() == 1 ? "the goal is " : "goal 0 is ") + faults[1].message;

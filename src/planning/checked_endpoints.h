@@ -6,6 +6,7 @@
 #include <ompl/base/ScopedState.h>
 
 #include "gpu_planning_scene/planning/group_state_space.h"
+#include "gpu_planning_scene/planning/path_constraints.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
 #include "gpu_planning_scene/state_checker.h"
 
@@ -19,8 +20,9 @@ struct CheckedEndpoints
   std::vector<ompl::base::ScopedState<>> goals;    ///< the goals that are within bounds and free of collision
 };
 
-/// Checks the start and all goals in one batch. `checker` holds `scene` already. The rows of the query have one value
-/// per variable of the robot.
+/// Checks the start and all goal states of the query in one batch. `checker` holds `scene` already. The rows of the
+/// query have one value per variable of the robot. `constraints`: of the path, or null.
 CheckedEndpoints checkEndpoints(const PlanningScene& scene, StateChecker& checker,
-                                const ompl::base::StateSpacePtr& space, const PlanningQuery& query);
+                                const ompl::base::StateSpacePtr& space, const PlanningQuery& query,
+                                const PathConstraints* constraints);
 }  // namespace gpu_planning_scene::core

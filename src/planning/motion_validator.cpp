@@ -32,7 +32,17 @@ MotionValidator::MotionValidator(const ompl::base::SpaceInformationPtr& informat
 {
 }
 
-/// Motions that leave the bounds are not checked.
+bool MotionValidator::project(ompl::base::State* state) const
+{
+  std::vector<double> row;
+  appendRow(*space_, reference_, state, row);
+  if (!constraints_->project(row.data()))
+    return false;
+  space_->copyFromRow(row.data(), state);
+  return true;
+}
+
+/// Motions that leave the bounds or violate the constraints are not checked for collision.
 std::vector<MotionVerdict> MotionValidator::check(const MotionChecker& checker, const std::vector<Motion>& motions,
                                                   MotionQuery query, const Termination& ptc) const
 {
@@ -44,8 +54,15 @@ std::vector<MotionVerdict> MotionValidator::check(const MotionChecker& checker, 
     const auto& [from, to] = motions[i];
     if (!isWithin(*space_, from) || !isWithin(*space_, to))
       continue;
+    const std::size_t begin = starts.size();
     appendRow(*space_, reference_, from, starts);
     appendRow(*space_, reference_, to, ends);
+    if (constraints_ && !constraints_->holdAlong(&starts[begin], &ends[begin]))
+    {
+      starts.resize(begin);
+      ends.resize(begin);
+      continue;
+    }
     within.push_back(i);
   }
   const std::vector<MotionVerdict> checked =

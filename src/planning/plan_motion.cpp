@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <mutex>
+#include <random>
 #include <string>
 #include <utility>
 
@@ -27,6 +28,7 @@
 #include "model/text/number_text.h"
 #include "planning/checked_endpoints.h"
 #include "planning/counted_checker.h"
+#include "planning/goal_regions.h"
 #include "planning/planner_parameters.h"
 #include "planning/waypoints.h"
 
@@ -67,13 +69,16 @@ void validateQuery(const PlanningScene& scene, const PlanningQuery& query)
 {
   validateRow(*scene.robot, query.start, "the start");
   refuseManyTurns(*scene.robot, query.start, "the start");
-  if (query.goals.empty())
+  if (query.goals.empty() && query.goal_regions.empty())
     throw Error("there is no goal; give at least one");
   for (std::size_t i = 0; i < query.goals.size(); ++i)
   {
     validateRow(*scene.robot, query.goals[i], "goal " + std::to_string(i));
     refuseManyTurns(*scene.robot, query.goals[i], "goal " + std::to_string(i));
   }
+  for (std::size_t i = 0; i < query.goal_regions.size(); ++i)
+    query.goal_regions[i].validate(*scene.robot, "goal region " + std::to_string(i));
+  query.path_constraints.validate(*scene.robot, "the path constraints");
   constexpr double kMaxSeconds = 1e9;  // OMPL's clock counts nanoseconds in integers
   if (!(query.seconds > 0.0 && query.seconds <= kMaxSeconds))
     throw Error("the planning time is " + std::to_string(query.seconds) + " s; it must be above 0 and at most 1e9");
@@ -95,6 +100,25 @@ void requireMotionOfGroup(const GroupStateSpace& space, const PlanningQuery& que
                   numberText(query.goals[i][variable]) + " and at the start " + numberText(query.start[variable]) +
                   ", but group '" + query.group + "' does not plan for it; give it the value of the start");
     }
+}
+
+/// The goal regions, with the path constraints, for the variables that the space plans for and within its ranges.
+std::vector<KinematicConstraints> regionsOf(const PlanningQuery& query, const GroupStateSpace& space)
+{
+  const RobotModel& robot = *space.robot();
+  std::vector<KinematicConstraints> regions = query.goal_regions;
+  for (KinematicConstraints& region : regions)
+  {
+    region.append(query.path_constraints);
+    for (const int variable : space.group().variables)
+      if (std::find(space.variables().begin(), space.variables().end(), variable) == space.variables().end())
+        region.addJoint(robot, variable, query.start[static_cast<std::size_t>(variable)],
+                        query.start[static_cast<std::size_t>(variable)]);
+    for (std::size_t i = 0; query.workspace && i < space.variables().size(); ++i)
+      if (const auto [lower, upper] = space.ranges()[i]; std::isfinite(lower) && std::isfinite(upper))
+        region.addJoint(robot, space.variables()[i], lower, upper);
+  }
+  return regions;
 }
 
 std::string seconds(double value)
@@ -139,6 +163,9 @@ class Plan
     information_->setStateValidityChecker(std::make_shared<StateValidityChecker>(information_, scene_, checker_));
     validator_ = std::make_shared<MotionValidator>(information_, scene_, checker_, query.motions);
     validator_->rememberValidMotions();
+    if (!query.path_constraints.isEmpty())
+      constraints_ = std::make_shared<const PathConstraints>(scene->robot, query.group, query.path_constraints);
+    validator_->constrain(constraints_);
     information_->setMotionValidator(validator_);
     information_->setup();
     space_->copyFromRow(query.start.data(), start_.get());
@@ -156,7 +183,8 @@ class Plan
     return copy;
   }
 
-  void findPath(const PlannerFactory& factory, const std::vector<ob::ScopedState<>>& goal_states);
+  ob::GoalPtr goalOf(const std::vector<ob::ScopedState<>>& states);
+  void findPath(const PlannerFactory& factory, const ob::GoalPtr& goals);
   std::string faultOf(const og::PathGeometric* path, const ob::Goal* goals) const;
   void finish(og::PathGeometric& path, const ob::GoalPtr& goals, const std::string& planner);
 
@@ -184,6 +212,7 @@ class Plan
   std::shared_ptr<GroupStateSpace> space_;
   ob::SpaceInformationPtr information_;
   std::shared_ptr<MotionValidator> validator_;
+  std::shared_ptr<const PathConstraints> constraints_;  // null: none
   ob::ScopedState<> start_;
   PlanningResult result_;
 };
@@ -201,12 +230,30 @@ std::string Plan::faultOf(const og::PathGeometric* path, const ob::Goal* goals) 
   return "";
 }
 
-/// Plans. The time of the query counts from the beginning of the call.
-void Plan::findPath(const PlannerFactory& factory, const std::vector<ob::ScopedState<>>& goal_states)
+/// The goal for the planner. Null, with the fault in the result, if no state of a goal region is found.
+ob::GoalPtr Plan::goalOf(const std::vector<ob::ScopedState<>>& states)
 {
-  const auto goals = std::make_shared<ob::GoalStates>(information_);
-  for (const ob::ScopedState<>& goal : goal_states)
-    goals->addState(goal);
+  if (query_.goal_regions.empty())
+  {
+    const auto goals = std::make_shared<ob::GoalStates>(information_);
+    for (const ob::ScopedState<>& goal : states)
+      goals->addState(goal);
+    return goals;
+  }
+  const std::uint64_t seed = query_.seed != 0 ? query_.seed : std::random_device{}();
+  const auto goals = std::make_shared<GoalRegions>(information_, scene_, checker_, regionsOf(query_, *space_),
+                                                   query_.start, states, seed);
+  if (goals->prepare(within(query_.seconds - secondsSince(begin_))))
+    return goals;
+  bool in_collision = false;
+  result_.message = goals->fault(in_collision);
+  result_.status = in_collision ? PlanningStatus::GoalInCollision : PlanningStatus::GoalUnreachable;
+  return nullptr;
+}
+
+/// Plans. The time of the query counts from the beginning of the call.
+void Plan::findPath(const PlannerFactory& factory, const ob::GoalPtr& goals)
+{
   const auto definition = std::make_shared<ob::ProblemDefinition>(information_);
   definition->addStartState(start_);
   definition->setGoal(goals);
@@ -269,13 +316,13 @@ void Plan::finish(og::PathGeometric& path, const ob::GoalPtr& goals, const std::
 
 PlanningResult Plan::run(const PlannerFactory& factory)
 {
-  const CheckedEndpoints endpoints = checkEndpoints(*scene_, *checker_, space_, query_);
-  endpoint_seconds_ = secondsSince(begin_);
+  const CheckedEndpoints endpoints = checkEndpoints(*scene_, *checker_, space_, query_, constraints_.get());
   result_.status = endpoints.status;
   result_.message = endpoints.message;
-  result_.planning_seconds = secondsSince(begin_);
-  if (!endpoints.goals.empty())
-    findPath(factory, endpoints.goals);
+  const ob::GoalPtr goal = endpoints.message.empty() ? goalOf(endpoints.goals) : nullptr;
+  endpoint_seconds_ = result_.planning_seconds = secondsSince(begin_);
+  if (goal)
+    findPath(factory, goal);
   result_.checking_seconds = checker_->seconds();
   result_.states_checked = checker_->states();
   result_.revision = scene_->revision;

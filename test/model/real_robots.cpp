@@ -107,10 +107,8 @@ RealRobot panda()
 RealRobot pr2()
 {
   const std::string folder = chosenOr(GPS_SHARED_DIR) + "/moveit/resources/pr2_description";
-  return {"PR2",
-          folder + "/urdf/robot.xml",
-          folder + "/srdf/robot.xml",
-          {{"moveit_resources_pr2_description", folder}}};
+  return {
+      "PR2", folder + "/urdf/robot.xml", folder + "/srdf/robot.xml", {{"moveit_resources_pr2_description", folder}}};
 }
 
 RealRobot g1()

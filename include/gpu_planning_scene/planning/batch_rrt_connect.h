@@ -39,7 +39,7 @@ class BatchRrtConnect : public ompl::base::Planner
   ~BatchRrtConnect() override;
 
   /// The longest motion that is added to a tree, in the distance of the space. With 0 or less, setup() chooses 4 % of
-  /// the extent of the space.
+  /// the extent of the space, or 1 % if the validator has path constraints.
   void setRange(double range);
   double getRange() const { return range_; }
 

@@ -15,6 +15,7 @@
 
 #include "gpu_planning_scene/motion_checker.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
+#include "gpu_planning_scene/planning/path_constraints.h"
 #include "gpu_planning_scene/planning_scene.h"
 
 namespace gpu_planning_scene::core
@@ -33,6 +34,14 @@ class MotionValidator : public ompl::base::MotionValidator
   /// `information` is not a GroupStateSpace of the robot of `scene`.
   MotionValidator(const ompl::base::SpaceInformationPtr& information, std::shared_ptr<const PlanningScene> scene,
                   std::shared_ptr<StateChecker> checker, const MotionCheckerOptions& options = {});
+
+  /// From now on, a motion is valid only if it is also proven to fulfil the constraints
+  /// (PathConstraints::holdAlong). Call this before the first check. Null: no constraints.
+  void constrain(std::shared_ptr<const PathConstraints> constraints) { constraints_ = std::move(constraints); }
+  bool isConstrained() const { return constraints_ != nullptr; }
+  /// Moves a state to a near one that fulfils the constraints. Returns false, with an undefined state, if there is none
+  /// near it.
+  bool project(ompl::base::State* state) const;
 
   bool checkMotion(const ompl::base::State* from, const ompl::base::State* to) const override;
   /// If the motion is invalid, `last_valid` receives MotionVerdict::last_valid and the state at this fraction; if the
@@ -71,6 +80,7 @@ class MotionValidator : public ompl::base::MotionValidator
 
   std::shared_ptr<const GroupStateSpace> space_;
   std::vector<double> reference_;  // one value per variable of the robot
+  std::shared_ptr<const PathConstraints> constraints_;
   MotionChecker motions_;
   MotionChecker coarse_motions_;
   std::atomic<bool> remembers_{false};

@@ -11,6 +11,7 @@
 #include <ompl/base/Planner.h>
 #include <Eigen/Geometry>
 
+#include "gpu_planning_scene/kinematic_constraints.h"
 #include "gpu_planning_scene/motion_checker.h"
 #include "gpu_planning_scene/planning/planner_factory.h"
 #include "gpu_planning_scene/planning_scene.h"
@@ -24,6 +25,10 @@ struct PlanningQuery
   std::string group;
   std::vector<double> start;
   std::vector<std::vector<double>> goals;  ///< rows; the motion may end at any of them
+  /// Further goals: the motion may end at any state that fulfils one of these constraints, for example a pose of a
+  /// link. Inverse kinematics samples such states while the planner searches.
+  std::vector<KinematicConstraints> goal_regions = {};
+  KinematicConstraints path_constraints = {};  ///< hold along the whole motion, start and goal included
   /// Seconds for planning, including the check of the start and the goals; planners can take slightly longer.
   /// Simplification and the last check of the path follow. Each may take the largest of these three: the time that
   /// planning has left, a tenth of `seconds`, 0.1 s.
@@ -50,8 +55,11 @@ enum class PlanningStatus
   /// No solution, and no path that ends nearer to a goal; or the planner's path is not valid by the rule.
   NoSolution,
   StartInCollision,
-  GoalInCollision,  ///< no goal is valid (free and within bounds), and the first collides
-  OutOfBounds       ///< the start is out of bounds; or no goal is valid, and the first is out of bounds
+  GoalInCollision,           ///< no goal is valid (free and within bounds), and the first collides
+  OutOfBounds,               ///< the start is out of bounds; or no goal is valid, and the first is out of bounds
+  GoalUnreachable,           ///< inverse kinematics found no state of a goal region
+  StartViolatesConstraints,  ///< the start does not fulfil the path constraints
+  GoalViolatesConstraints    ///< no goal is valid, and the first does not fulfil the path constraints
 };
 
 struct PlanningResult
@@ -71,7 +79,8 @@ struct PlanningResult
 /// planner reacts. Thread-safe if each call has a checker of its own. Throws Error for an unknown group, parameter or
 /// projection joint; for a row with a wrong length or a value that is not finite; for an angle of the start or a
 /// goal beyond 1e6 rad (continuous and planar joints); for a goal that moves a variable outside the group; without a
-/// goal; and for times beyond their limits.
+/// goal; for goal regions or path constraints that are not valid or that the group cannot influence; and for times
+/// beyond their limits.
 /// Errors of GroupStateSpace and MotionChecker, and exceptions of the planner, pass through.
 PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,

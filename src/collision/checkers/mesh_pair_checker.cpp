@@ -5,8 +5,8 @@
 
 #include "collision/gpu/gpu_checker.h"
 #include "gpu_planning_scene/error.h"
-#include "model/seconds_since.h"
 #include "model/rigid_pose.h"
+#include "model/seconds_since.h"
 
 namespace gpu_planning_scene::core
 {

@@ -45,7 +45,7 @@ KinematicChains::Chain KinematicChains::chainTo(int link, const Group& group)
   for (const int joint : joints)
   {
     const Joint& each = robot_->joints()[static_cast<std::size_t>(joint)];
-    if (std::binary_search(group.variables.begin(), group.variables.end(), each.first_variable))
+    if (!each.passive && std::binary_search(group.variables.begin(), group.variables.end(), each.first_variable))
       addMotions(each, chain.motions);
   }
   return chain;

@@ -66,6 +66,13 @@ void validateJoint(const JointConstraint& constraint, const RobotModel& robot, c
     throw Error(of + " is outside the joint's limits, " + numberText(variable.lower) + " to " +
                 numberText(variable.upper));
 }
+/// The distance of a value from its range; at most 0 within it.
+double excessOf(const JointConstraint& constraint, double value)
+{
+  const double middle = 0.5 * (constraint.lower + constraint.upper);
+  const double difference = constraint.is_turn ? std::remainder(value - middle, 2.0 * kPi) : value - middle;
+  return std::abs(difference) - 0.5 * (constraint.upper - constraint.lower);
+}
 }  // namespace
 
 KinematicConstraints KinematicConstraints::pose(int link, const Eigen::Isometry3d& frame, const Eigen::Isometry3d& pose,
@@ -94,6 +101,24 @@ std::vector<int> KinematicConstraints::links() const
   std::sort(links.begin(), links.end());
   links.erase(std::unique(links.begin(), links.end()), links.end());
   return links;
+}
+
+void KinematicConstraints::append(const KinematicConstraints& other)
+{
+  positions.insert(positions.end(), other.positions.begin(), other.positions.end());
+  orientations.insert(orientations.end(), other.orientations.begin(), other.orientations.end());
+  joints.insert(joints.end(), other.joints.begin(), other.joints.end());
+}
+
+void KinematicConstraints::addJoint(const RobotModel& robot, int variable, double lower, double upper)
+{
+  const bool is_turn = std::any_of(robot.joints().begin(), robot.joints().end(),
+                                   [variable](const Joint& joint)
+                                   {
+                                     return (joint.type == JointType::Continuous && joint.first_variable == variable) ||
+                                            (joint.type == JointType::Planar && joint.first_variable + 2 == variable);
+                                   });
+  joints.push_back({variable, lower, upper, is_turn});
 }
 
 void KinematicConstraints::clampJoints(double* state) const
@@ -136,8 +161,7 @@ ConstraintViolation violationOf(const KinematicConstraints& constraints, const E
         violation.orientation = std::max(violation.orientation, std::abs(angles[axis]) - constraint.tolerance[axis]);
   }
   for (const JointConstraint& constraint : constraints.joints)
-    violation.joint = std::max({violation.joint, constraint.lower - state[constraint.variable],
-                                state[constraint.variable] - constraint.upper});
+    violation.joint = std::max(violation.joint, excessOf(constraint, state[constraint.variable]));
   return violation;
 }
 

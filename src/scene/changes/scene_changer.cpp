@@ -5,10 +5,10 @@
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
+#include "model/rigid_pose.h"
 #include "scene/changes/matrix_entries.h"
 #include "scene/changes/octree_cubes.h"
 #include "scene/frame.h"
-#include "model/rigid_pose.h"
 #include "scene/shape_order.h"
 #include "scene/solid_rules.h"
 
