@@ -55,12 +55,12 @@ core::RobotModelOptions optionsFrom(py::handle packages, double unbounded_transl
 }
 
 /// The position limits of the file; none without a path.
-std::vector<core::PositionLimits> limitsOfFile(const std::string& path)
+std::vector<core::JointLimits> limitsOfFile(const std::string& path)
 {
   std::vector<std::string> warnings;
-  std::vector<core::PositionLimits> limits;
+  std::vector<core::JointLimits> limits;
   if (!path.empty())
-    limits = core::readPositionLimits(path, &warnings);
+    limits = core::readJointLimits(path, &warnings);
   warnOf(warnings);
   return limits;
 }
@@ -71,7 +71,7 @@ RobotPtr fromFiles(const py::object& urdf, const py::object& srdf, const py::obj
   core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value, files);
   const std::string urdf_path = pathFrom(urdf, "urdf");
   const std::string srdf_path = pathFrom(srdf, "srdf");
-  options.position_limits = limitsOfFile(pathFrom(planning, "planning"));
+  options.joint_limits = limitsOfFile(pathFrom(planning, "planning"));
   return loaded([&](auto* warnings) { return RobotModel::fromFiles(urdf_path, srdf_path, options, warnings); });
 }
 
@@ -82,7 +82,7 @@ RobotPtr fromXml(const Arg<std::string>& urdf, const Arg<std::string>& srdf, con
   core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value, files);
   std::vector<std::string> faults;
   if (!planning.value.empty())
-    options.position_limits = core::positionLimitsFromText(planning.value, "planning", &faults);
+    options.joint_limits = core::jointLimitsFromText(planning.value, "planning", &faults);
   warnOf(faults);
   options.urdf_folder = pathFrom(urdf_folder, "urdf_folder");
   options.urdf_name = "urdf";
@@ -105,7 +105,7 @@ py::tuple withTexts(const py::object& urdf, const py::object& srdf, const py::ob
                     const py::object& planning)
 {
   core::RobotModelOptions options = optionsFrom(packages, 1.0, files);
-  options.position_limits = limitsOfFile(pathFrom(planning, "planning"));
+  options.joint_limits = limitsOfFile(pathFrom(planning, "planning"));
   const std::string urdf_path = pathFrom(urdf, "urdf");
   const std::string srdf_path = pathFrom(srdf, "srdf");
   const core::RobotDescription read = withoutLock(
