@@ -215,7 +215,13 @@ void addParts(py::module_& module)
       .def_readonly("upper", &core::Variable::upper, "The upper limit, or that of random states.")
       .def_readonly("limits_source", &core::Variable::limits_source,
                     "Source of the limits. Empty: the URDF's <limit>. Otherwise the URDF's <safety_controller>, the "
-                    "argument planning, or both.");
+                    "argument planning, or both.")
+      .def_readonly("max_velocity", &core::Variable::max_velocity,
+                    "The largest speed, in rad/s or m/s: of the URDF's <limit>, or of the argument planning. None: "
+                    "there is no limit.")
+      .def_readonly(
+          "max_acceleration", &core::Variable::max_acceleration,
+          "The largest acceleration, in rad/s^2 or m/s^2, of the argument planning. None: there is no limit.");
   py::enum_<core::JointType>(module, "JointType", "The type of a joint.")
       .value("FIXED", core::JointType::Fixed)
       .value("REVOLUTE", core::JointType::Revolute)
@@ -273,8 +279,8 @@ void addRobotModel(py::module_& module)
           "without packages, other names are looked up on ROS_PACKAGE_PATH. unbounded_translation: metres; "
           "random translations of planar and floating joints without limits are in [-value, value]. "
           "files: a function that gets the URI of each mesh file and returns the path of the file; None means "
-          "that the usual rules apply. planning: the path of a YAML file with MoveIt's joint_limits, whose position "
-          "limits replace those of the URDF.\n\n"
+          "that the usual rules apply. planning: the path of a YAML file with MoveIt's joint_limits, whose limits "
+          "replace those of the URDF.\n\n"
           "Harmless faults of the files are Python warnings (UserWarning). Raises Error with file and line "
           "for other faults, and for meshes that cannot be read.\n\n"
           "    gps.RobotModel.from_files(\"ur5.urdf\", packages={\"ur5\": \"/path/ur5\"})")
