@@ -28,6 +28,9 @@ using Row = std::vector<double>;
 using Rows = std::vector<Row>;
 
 constexpr double kAssumedLimit = 1.0;  // as in MoveIt
+constexpr double kLeastLimit = 1e-9;   // the squares of smaller limits could underflow
+constexpr double kLargestLimit = 1e6;  // the squares of larger limits could overflow; no robot reaches this one
+constexpr double kLongest = 1e4;       // seconds; the points of longer motions would fill the memory
 
 /// Radians and metres: waypoints that differ by less are equal up to rounding errors.
 constexpr double kEqual = 1e-12;
@@ -87,7 +90,7 @@ Rows continuousRows(const RobotModel& robot, const Rows& rows)
   return result;
 }
 
-/// The variables of the group that have no limit; the others have it in `limits`, times `factor`.
+/// The variables of the group that have no limit. `limits` gets all limits, times `factor`.
 std::vector<std::string> limitsOf(const RobotModel& robot, const std::string& group,
                                   std::optional<double> Variable::*limit, double factor, Eigen::ArrayXd& limits)
 {
@@ -97,9 +100,12 @@ std::vector<std::string> limitsOf(const RobotModel& robot, const std::string& gr
   {
     const Variable& variable = robot.variables()[static_cast<std::size_t>(i)];
     if (variable.*limit)
-      limits[i] = factor * *(variable.*limit);
+      limits[i] = std::min(factor * *(variable.*limit), kLargestLimit);
     else
       without.push_back(variable.name);
+    if (limits[i] < kLeastLimit)
+      throw Error("a limit of '" + variable.name + "' times its scaling factor is " + numberText(limits[i]) +
+                  "; limits of velocity and acceleration must be at least " + numberText(kLeastLimit));
   }
   return without;
 }
@@ -152,6 +158,16 @@ void makeValid(BlendedPath& path, const std::function<std::vector<std::uint8_t>(
         path.shrink(i, ++failures[i] < kSizes ? kSmaller : 0.0);
     path.computeSizes();
   }
+}
+
+void refuseLongMotion(const std::vector<Phase>& phases)
+{
+  double duration = 0.0;
+  for (const Phase& phase : phases)
+    duration += phase.seconds;
+  if (!(duration <= kLongest))
+    throw Error("the motion would last " + numberText(duration) + " s, more than " + numberText(kLongest) +
+                " s; raise the scaling factors, or the limits of velocity and acceleration");
 }
 }  // namespace
 
@@ -208,7 +224,9 @@ TimedPath timePath(const PlanningScene& scene, const std::shared_ptr<StateChecke
     result.blends += path.hasBlend(i) ? 1 : 0;
     result.stops += path.size(i) == 0.0 ? 1 : 0;
   }
-  result.points = timedPoints(path.phases(), rows.back());
+  const std::vector<Phase> phases = path.phases();
+  refuseLongMotion(phases);
+  result.points = timedPoints(phases, rows.back());
   result.seconds = secondsSince(begin);
   result.checking_seconds = counted.seconds();
   result.states_checked = counted.states();

@@ -2,8 +2,13 @@
 // it.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -186,6 +191,24 @@ TimedPath timesOf(const PointRobot& robot, const Rows& path, const PathTimingOpt
   return timePath(*robot.scene(), robot.checker(), "plane", path, options);
 }
 
+/// A base, a turntable without limits and an arm. `joint_limits`: as in MoveIt's file.
+std::shared_ptr<const RobotModel> mobileRobot(const std::vector<JointLimits>& limits,
+                                              const std::string& type = "planar", const std::string& property = "")
+{
+  RobotModelOptions options;
+  options.joint_limits = limits;
+  return RobotModel::fromXml(
+      "<robot name='test'><link name='base'/>" + boxLink("table") + "<link name='arm'/>" +
+          jointXml("turn", "continuous", "base", "table", "<axis xyz='0 0 1'/><limit effort='1' velocity='2'/>") +
+          jointXml("lift", "prismatic", "table", "arm", "<limit lower='0' upper='1' effort='1' velocity='0'/>") +
+          "</robot>",
+      "<robot name='test'><virtual_joint name='world' type='" + type +
+          "' parent_frame='map' child_link='base'/><group name='all'><joint name='world'/><joint name='turn'/>"
+          "<joint name='lift'/></group><group name='table'><joint name='turn'/></group>" +
+          property + "</robot>",
+      options);
+}
+
 TEST(PathTiming, OfAStraightMotionIsATrapezoid)
 {
   const PointRobot robot({});
@@ -351,6 +374,36 @@ TEST(PathTiming, RefusesWrongInputInOneLine)
   EXPECT_NE(fault(path, {}, "plain"), "");
 }
 
+/// Their points would fill the memory.
+TEST(PathTiming, RefusesMotionsOfManyHours)
+{
+  const PointRobot robot({});
+  PathTimingOptions options;
+  options.max_velocity_scaling_factor = 1e-5;
+  const auto fault = [&] { return errorOf([&] { timesOf(robot, {{-1.0, 0.0}, {1.0, 0.0}, {1.0, 1.0}}, options); }); };
+  EXPECT_EQ(fault().find("the motion would last 300000 s, more than 10000 s; raise the scaling factors"), 0U)
+      << fault();
+  for (const double least : {1e-10, 1e-300, std::numeric_limits<double>::denorm_min()})
+  {
+    options.max_velocity_scaling_factor = least;
+    EXPECT_EQ(fault().find("a limit of 'x' times its scaling factor is "), 0U) << fault();
+  }
+}
+
+TEST(PathTiming, HandlesVeryLargeLimits)
+{
+  JointLimits fast{"turn"};
+  fast.max_velocity = 1e300;
+  fast.max_acceleration = 2.0;
+  const auto scene = std::make_shared<const PlanningScene>(mobileRobot({fast}));
+  const auto row = [](double turn) { return std::vector<double>{0.0, 0.0, 0.0, turn, 0.5}; };
+  const Rows path = {row(0.0), row(0.5), row(1.0), row(-0.5)};
+  expectPromises(*scene->robot, timePath(*scene, std::make_shared<CpuChecker>(scene), "table", path), path, {});
+  fast.max_acceleration = 1e300;
+  const auto faster = std::make_shared<const PlanningScene>(mobileRobot({fast}));
+  EXPECT_LT(timePath(*faster, std::make_shared<CpuChecker>(faster), "table", path).points.back().seconds, 0.1);
+}
+
 TEST(PathTiming, RefusesMotionsOutsideTheGroup)
 {
   const auto robot = robotOf(armUrdf(), "<group name='arm'><joint name='arm_1'/></group>");
@@ -363,24 +416,6 @@ TEST(PathTiming, RefusesMotionsOutsideTheGroup)
                 })
                 .find("motion 0 moves pan, which is not in group 'arm'"),
             0U);
-}
-
-/// A base, a turntable without limits and an arm. `joint_limits`: as in MoveIt's file.
-std::shared_ptr<const RobotModel> mobileRobot(const std::vector<JointLimits>& limits,
-                                              const std::string& type = "planar", const std::string& property = "")
-{
-  RobotModelOptions options;
-  options.joint_limits = limits;
-  return RobotModel::fromXml(
-      "<robot name='test'><link name='base'/>" + boxLink("table") + "<link name='arm'/>" +
-          jointXml("turn", "continuous", "base", "table", "<axis xyz='0 0 1'/><limit effort='1' velocity='2'/>") +
-          jointXml("lift", "prismatic", "table", "arm", "<limit lower='0' upper='1' effort='1' velocity='0'/>") +
-          "</robot>",
-      "<robot name='test'><virtual_joint name='world' type='" + type +
-          "' parent_frame='map' child_link='base'/><group name='all'><joint name='world'/><joint name='turn'/>"
-          "<joint name='lift'/></group><group name='table'><joint name='turn'/></group>" +
-          property + "</robot>",
-      options);
 }
 
 TEST(PathTiming, NamesTheLimitsThatItAssumes)

@@ -70,8 +70,8 @@ struct TimedPath
 /// `scene`: that of the checker (StateChecker::setScene); this is not verified. When `stop` returns true, waypoints
 /// whose curves are not decided become stops. Thread-safe if each call has a checker of its own. Throws Error for an
 /// unknown group; for no row, and a row with a wrong length, a value that is not finite or an angle beyond 1e6 rad
-/// (continuous and planar joints); for a motion that moves a variable outside the group; and as validateTiming and
-/// requireTimes do. Errors of the checker pass through.
+/// (continuous and planar joints); for a motion that moves a variable outside the group, or lasts more than 1e4 s; for
+/// a limit below 1e-9; and as validateTiming and requireTimes do. Errors of the checker pass through.
 TimedPath timePath(const PlanningScene& scene, const std::shared_ptr<StateChecker>& checker, const std::string& group,
                    const std::vector<std::vector<double>>& waypoints, const PathTimingOptions& options = {},
                    const std::function<bool()>& stop = {});

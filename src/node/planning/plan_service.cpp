@@ -229,8 +229,10 @@ PlanService::Answer PlanService::plan(const Task& task)
     Answer answer{
         asRequestError([&] { return planMotion(task.scene, lease.checker(), task.query, *task.factory, stop); }), {}};
     if (task.timing && !answer.plan.waypoints.empty())
-      answer.timed =
-          timePath(*task.scene, lease.checker(), task.query.group, answer.plan.waypoints, *task.timing, stop);
+      answer.timed = asRequestError(
+          [&] {
+            return timePath(*task.scene, lease.checker(), task.query.group, answer.plan.waypoints, *task.timing, stop);
+          });
     lease.giveBack();
     return answer;
   }
