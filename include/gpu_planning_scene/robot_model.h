@@ -34,18 +34,27 @@ struct Variable
   /// this one. For other numbers, it is the largest finite number.
   double largest = std::numeric_limits<double>::max();
   /// Source of the limits, for messages. Empty: the URDF's <limit>. Otherwise the URDF's <safety_controller>,
-  /// PositionLimits::source, or both.
+  /// JointLimits::source, or both.
   std::string limits_source = {};
+  /// The largest speed (rad/s or m/s) and acceleration (rad/s^2 or m/s^2), above 0 and finite. The speed is that of the
+  /// URDF's <limit>, unless joint_limits has another one. As in MoveIt, a speed of 0 in the URDF is no limit. No value:
+  /// there is no limit. Only timePath uses them (planning/path_timing.h).
+  std::optional<double> max_velocity = {};
+  std::optional<double> max_acceleration = {};
 };
 
-/// Position limits of a variable that replace those of the URDF: an entry of MoveIt's joint_limits. See
-/// readPositionLimits in planning_file.h.
-struct PositionLimits
+/// Limits of a variable that replace those of the URDF: an entry of MoveIt's joint_limits. See readJointLimits in
+/// planning_file.h.
+struct JointLimits
 {
   std::string variable;                     ///< as Variable::name
   std::optional<double> min_position = {};  ///< radians or metres; no value: the limit of the URDF stays
   std::optional<double> max_position = {};
   std::string source = "joint_limits";  ///< the file or parameter, for messages
+  /// Above 0 and finite; no value: the limit of the URDF stays.
+  std::optional<double> max_velocity = {};      ///< rad/s or m/s
+  std::optional<double> max_acceleration = {};  ///< rad/s^2 or m/s^2
+  bool drops_velocity_limit = false;            ///< has_velocity_limits is false: the URDF's limit does not count
 };
 
 enum class JointType
@@ -143,7 +152,7 @@ struct RobotModelOptions
   /// They replace limits of the URDF, also by wider ones, as in MoveIt. An entry that can have no effect gives a
   /// warning: the robot does not have the variable, or it belongs to a continuous, fixed or mimic joint or to a
   /// rotation.
-  std::vector<PositionLimits> position_limits = {};
+  std::vector<JointLimits> joint_limits = {};
   std::function<void(const std::string& line)> info;  ///< receives a line for each program that was run; may be empty
 };
 

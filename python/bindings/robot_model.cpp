@@ -55,12 +55,12 @@ core::RobotModelOptions optionsFrom(py::handle packages, double unbounded_transl
 }
 
 /// The position limits of the file; none without a path.
-std::vector<core::PositionLimits> limitsOfFile(const std::string& path)
+std::vector<core::JointLimits> limitsOfFile(const std::string& path)
 {
   std::vector<std::string> warnings;
-  std::vector<core::PositionLimits> limits;
+  std::vector<core::JointLimits> limits;
   if (!path.empty())
-    limits = core::readPositionLimits(path, &warnings);
+    limits = core::readJointLimits(path, &warnings);
   warnOf(warnings);
   return limits;
 }
@@ -71,7 +71,7 @@ RobotPtr fromFiles(const py::object& urdf, const py::object& srdf, const py::obj
   core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value, files);
   const std::string urdf_path = pathFrom(urdf, "urdf");
   const std::string srdf_path = pathFrom(srdf, "srdf");
-  options.position_limits = limitsOfFile(pathFrom(planning, "planning"));
+  options.joint_limits = limitsOfFile(pathFrom(planning, "planning"));
   return loaded([&](auto* warnings) { return RobotModel::fromFiles(urdf_path, srdf_path, options, warnings); });
 }
 
@@ -82,7 +82,7 @@ RobotPtr fromXml(const Arg<std::string>& urdf, const Arg<std::string>& srdf, con
   core::RobotModelOptions options = optionsFrom(packages, unbounded_translation.value, files);
   std::vector<std::string> faults;
   if (!planning.value.empty())
-    options.position_limits = core::positionLimitsFromText(planning.value, "planning", &faults);
+    options.joint_limits = core::jointLimitsFromText(planning.value, "planning", &faults);
   warnOf(faults);
   options.urdf_folder = pathFrom(urdf_folder, "urdf_folder");
   options.urdf_name = "urdf";
@@ -105,7 +105,7 @@ py::tuple withTexts(const py::object& urdf, const py::object& srdf, const py::ob
                     const py::object& planning)
 {
   core::RobotModelOptions options = optionsFrom(packages, 1.0, files);
-  options.position_limits = limitsOfFile(pathFrom(planning, "planning"));
+  options.joint_limits = limitsOfFile(pathFrom(planning, "planning"));
   const std::string urdf_path = pathFrom(urdf, "urdf");
   const std::string srdf_path = pathFrom(srdf, "srdf");
   const core::RobotDescription read = withoutLock(
@@ -215,7 +215,13 @@ void addParts(py::module_& module)
       .def_readonly("upper", &core::Variable::upper, "The upper limit, or that of random states.")
       .def_readonly("limits_source", &core::Variable::limits_source,
                     "Source of the limits. Empty: the URDF's <limit>. Otherwise the URDF's <safety_controller>, the "
-                    "argument planning, or both.");
+                    "argument planning, or both.")
+      .def_readonly("max_velocity", &core::Variable::max_velocity,
+                    "The largest speed, in rad/s or m/s: of the URDF's <limit>, or of the argument planning. None: "
+                    "there is no limit.")
+      .def_readonly(
+          "max_acceleration", &core::Variable::max_acceleration,
+          "The largest acceleration, in rad/s^2 or m/s^2, of the argument planning. None: there is no limit.");
   py::enum_<core::JointType>(module, "JointType", "The type of a joint.")
       .value("FIXED", core::JointType::Fixed)
       .value("REVOLUTE", core::JointType::Revolute)
@@ -273,8 +279,8 @@ void addRobotModel(py::module_& module)
           "without packages, other names are looked up on ROS_PACKAGE_PATH. unbounded_translation: metres; "
           "random translations of planar and floating joints without limits are in [-value, value]. "
           "files: a function that gets the URI of each mesh file and returns the path of the file; None means "
-          "that the usual rules apply. planning: the path of a YAML file with MoveIt's joint_limits, whose position "
-          "limits replace those of the URDF.\n\n"
+          "that the usual rules apply. planning: the path of a YAML file with MoveIt's joint_limits, whose limits "
+          "replace those of the URDF.\n\n"
           "Harmless faults of the files are Python warnings (UserWarning). Raises Error with file and line "
           "for other faults, and for meshes that cannot be read.\n\n"
           "    gps.RobotModel.from_files(\"ur5.urdf\", packages={\"ur5\": \"/path/ur5\"})")

@@ -35,6 +35,7 @@ __all__ = [
     "Sphere",
     "StateChecker",
     "StateInspector",
+    "TimedPath",
     "Variable",
     "WorldObject",
     "list_devices",
@@ -43,6 +44,7 @@ __all__ = [
     "plan_motion",
     "render",
     "resolve_uri",
+    "time_path",
 ]
 
 

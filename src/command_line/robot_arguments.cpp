@@ -101,7 +101,7 @@ std::shared_ptr<const RobotModel> robotFrom(const CommandLine& arguments, const 
   options.package_folders = packageFoldersFrom(arguments);
   options.unbounded_translation = arguments.number("--unbounded-translation", options.unbounded_translation, 0.0, 1e6);
   if (const std::string planning = arguments.value("--planning", ""); !planning.empty())
-    options.position_limits = readPositionLimits(planning, warnings);
+    options.joint_limits = readJointLimits(planning, warnings);
   options.info = [](const std::string& line) { std::cerr << line << "\n"; };
   return RobotModel::fromFiles(arguments.required("--urdf"), srdf, options, warnings)
       ->withSolids(solidsFrom(arguments));

@@ -23,13 +23,13 @@
 #include "gpu_planning_scene/planning/path_shortcutter.h"
 #include "gpu_planning_scene/planning/state_validity_checker.h"
 #include "model/full_states.h"
-#include "model/joint_limits.h"
 #include "model/seconds_since.h"
 #include "model/text/number_text.h"
 #include "planning/checked_endpoints.h"
 #include "planning/counted_checker.h"
 #include "planning/goal_regions.h"
 #include "planning/planner_parameters.h"
+#include "planning/valid_row.h"
 #include "planning/waypoints.h"
 
 // The planner gets the time that the check of the start and the goals leaves. Simplification and the last check of the
@@ -42,40 +42,13 @@ namespace ob = ompl::base;
 namespace og = ompl::geometric;
 using Clock = std::chrono::steady_clock;
 
-void validateRow(const RobotModel& robot, const std::vector<double>& row, const std::string& what)
-{
-  if (row.size() != robot.variables().size())
-    throw Error(what + " has " + std::to_string(row.size()) + " values; the robot has " +
-                std::to_string(robot.variables().size()) + " variables");
-  for (std::size_t i = 0; i < row.size(); ++i)
-    if (!std::isfinite(row[i]))
-      throw Error(what + ": " + robot.variables()[i].name + " is " + std::to_string(row[i]) + "; it must be finite");
-}
-
-/// Refuses angles of very many turns, because doubles resolve them too coarsely. The state space wraps them to one
-/// turn.
-void refuseManyTurns(const RobotModel& robot, const std::vector<double>& row, const std::string& what)
-{
-  for (const Joint& joint : robot.joints())
-  {
-    const int angle = joint.mimic ? -1 : wrappedAngle(joint);
-    if (angle >= 0 && std::abs(row[static_cast<std::size_t>(angle)]) > kLargestProvenAngle)
-      throw Error(what + ": " + robot.variables()[static_cast<std::size_t>(angle)].name + " is " +
-                  numberText(row[static_cast<std::size_t>(angle)]) + " rad; it must be from -1e6 to 1e6");
-  }
-}
-
 void validateQuery(const PlanningScene& scene, const PlanningQuery& query)
 {
   validateRow(*scene.robot, query.start, "the start");
-  refuseManyTurns(*scene.robot, query.start, "the start");
   if (query.goals.empty() && query.goal_regions.empty())
     throw Error("there is no goal; give at least one");
   for (std::size_t i = 0; i < query.goals.size(); ++i)
-  {
     validateRow(*scene.robot, query.goals[i], "goal " + std::to_string(i));
-    refuseManyTurns(*scene.robot, query.goals[i], "goal " + std::to_string(i));
-  }
   for (std::size_t i = 0; i < query.goal_regions.size(); ++i)
     query.goal_regions[i].validate(*scene.robot, "goal region " + std::to_string(i));
   query.path_constraints.validate(*scene.robot, "the path constraints");

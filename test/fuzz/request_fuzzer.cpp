@@ -235,6 +235,7 @@ class Handlers
     const PlannerConfig config{"geometric::RRTConnect", {{"range", "0.5"}}};
     const Snapshot now = store_.snapshot();
     const PlanningQuery query = queryFrom(request, now, config, plannersOf(request.group), fewGoals());
+    timingFrom(request, *now.scene->robot, query.motions, fewGoals());
     requireWithinGroup(query, now.scene->robot);
   }
 

@@ -28,12 +28,12 @@ std::string softLimits(const std::string& attributes)
   return "<safety_controller k_velocity=\"1\" " + attributes + "/>";
 }
 
-std::shared_ptr<const RobotModel> limited(const std::vector<PositionLimits>& limits,
+std::shared_ptr<const RobotModel> limited(const std::vector<JointLimits>& limits,
                                           std::vector<std::string>* warnings = nullptr, const std::string& srdf = "",
                                           const std::string& inside = "")
 {
   RobotModelOptions options;
-  options.position_limits = limits;
+  options.joint_limits = limits;
   return RobotModel::fromXml("<robot name=\"test\">" + chainUrdf(inside) + "</robot>",
                              srdf.empty() ? srdf : "<robot name=\"test\">" + srdf + "</robot>", options, warnings);
 }
@@ -93,11 +93,11 @@ TEST(PositionLimits, ThatAreWiderThanThoseOfProofsMakeTheirPairsChecked)
   const auto warningsOf = [&](double upper, const std::string& reason, const std::string& comment)
   {
     RobotModelOptions options;
-    PositionLimits limits;
+    JointLimits limits;
     limits.variable = "slide";
     limits.min_position = -1.0;
     limits.max_position = upper;
-    options.position_limits = {limits};
+    options.joint_limits = {limits};
     options.srdf_name = "my.srdf";
     std::vector<std::string> warnings;
     const auto robot = RobotModel::fromXml(
@@ -268,6 +268,71 @@ TEST(PositionLimits, AreDescribedWithTheirSources)
                                       "limits from the URDF's <safety_controller>: slide (-0.5 to 0.5)"}),
             describeLimitSources(*robot));
   EXPECT_TRUE(describeLimitSources(*limited({})).empty());
+}
+std::optional<double> velocityOf(const std::string& limit, const std::vector<JointLimits>& limits = {})
+{
+  RobotModelOptions options;
+  options.joint_limits = limits;
+  return variableOf(*RobotModel::fromXml("<robot name='test'>" + boxLink("base") + boxLink("a") +
+                                             jointXml("turn", "continuous", "base", "a", limit) + "</robot>",
+                                         "", options),
+                    "turn")
+      .max_velocity;
+}
+
+TEST(VelocityLimits, AreThoseOfTheUrdf)
+{
+  EXPECT_EQ(1.0, variableOf(*robotOf(chainUrdf()), "slide").max_velocity);
+  EXPECT_EQ(2.5, velocityOf("<limit effort='1' velocity='2.5'/>"));
+  EXPECT_FALSE(velocityOf(""));
+  for (const char* none : {"0", "-1"})
+    EXPECT_FALSE(velocityOf("<limit effort='1' velocity='" + std::string(none) + "'/>")) << none;
+}
+
+TEST(VelocityLimits, OfJointLimitsReplaceThoseOfTheUrdf)
+{
+  const std::string urdf = "<limit effort='1' velocity='2.5'/>";
+  JointLimits limits{"turn"};
+  EXPECT_EQ(2.5, velocityOf(urdf, {limits}));
+  limits.max_velocity = 4.0;
+  EXPECT_EQ(4.0, velocityOf(urdf, {limits})) << "also on a continuous joint";
+  limits = {"turn"};
+  limits.drops_velocity_limit = true;
+  EXPECT_FALSE(velocityOf(urdf, {limits}));
+}
+
+TEST(VelocityLimits, MustBeFiniteAndAboveZero)
+{
+  for (const double wrong : {0.0, -1.0, std::nan(""), HUGE_VAL})
+  {
+    JointLimits velocity{"slide", {}, {}, "l"};
+    velocity.max_velocity = wrong;
+    EXPECT_EQ("l: 'slide' has the max_velocity " + numberText(wrong) +
+                  "; it must be finite and above 0 (for no limit, set has_velocity_limits: false)",
+              errorOf([&] { limited({velocity}); }));
+    JointLimits acceleration{"slide", {}, {}, "l"};
+    acceleration.max_acceleration = wrong;
+    EXPECT_EQ("l: 'slide' has the max_acceleration " + numberText(wrong) +
+                  "; it must be finite and above 0 (for no limit, set has_acceleration_limits: false)",
+              errorOf([&] { limited({acceleration}); }));
+  }
+}
+
+TEST(VelocityLimits, ThatCanHaveNoEffectGiveAWarning)
+{
+  std::vector<JointLimits> limits;
+  for (const char* name : {"copy", "glued", "elbo", "turn"})
+  {
+    limits.push_back({name, {}, {}, "l"});
+    limits.back().max_velocity = 2.0;
+  }
+  std::vector<std::string> warnings;
+  limited(limits, &warnings);
+  EXPECT_EQ((std::vector<std::string>{
+                "l: the velocity limits of 'copy' are not used, because it follows another joint, whose limits count",
+                "l: the velocity limits of 'glued' are not used, because it is fixed",
+                "l: velocity limits are not used, because the robot does not have the joint: elbo"}),
+            warnings);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -393,10 +393,10 @@ class BaseGoals : public testing::Test
     wanted.seconds = 20.0;
   }
 
-  PlanningResult plan(const std::vector<PositionLimits>& limits = {}) const
+  PlanningResult plan(const std::vector<JointLimits>& limits = {}) const
   {
     RobotModelOptions options;
-    options.position_limits = limits;
+    options.joint_limits = limits;
     const auto robot = RobotModel::fromXml(
         "<robot name='r'>" + boxLink("body") + "</robot>",
         "<robot name='r'><virtual_joint name='drive' type='planar' parent_frame='world' child_link='body'/>"

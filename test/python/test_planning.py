@@ -4,7 +4,7 @@ import unittest
 import numpy as np
 
 import gpu_planning_scene as gps
-from robots import RAIL, Case, arm_scene, rail
+from robots import RAIL, RAIL_SRDF, Case, arm_scene, rail
 from signals import pressed_during_a_call
 
 
@@ -88,6 +88,40 @@ class Planning(Case):
         self.assertNotEqual(expected, path(4))
         path(None)
         self.assertEqual(expected, path(3))
+
+    def test_a_path_gets_times_under_the_limits_of_the_joints(self):
+        limits = "joint_limits: {slide: {has_velocity_limits: true, max_velocity: 0.5, max_acceleration: 0.25}}"
+        robot = gps.RobotModel.from_xml(RAIL, RAIL_SRDF, planning=limits)
+        slide = robot.variables[0]
+        self.assertEqual((0.5, 0.25), (slide.max_velocity, slide.max_acceleration))
+        checker = gps.StateChecker(gps.PlanningScene(robot), device="cpu")
+        timed = gps.time_path(checker, "all", [[-1.0], [0.0], [1.0]])
+        self.assertEqual(("", 0, 0), (timed.message, timed.blends, timed.stops))
+        self.assertAlmostEqual(2.0 / 0.5 + 0.5 / 0.25, timed.times[-1])
+        self.assertTrue((np.diff(timed.times) > 0).all())
+        self.assertEqual((len(timed.times), 1), timed.positions.shape)
+        np.testing.assert_array_equal([[-1.0], [1.0]], timed.positions[[0, -1]])
+        np.testing.assert_array_equal([[0.0], [0.0]], timed.velocities[[0, -1]])
+        self.assertAlmostEqual(0.5, timed.velocities.max())
+        self.assertAlmostEqual(0.25, np.abs(timed.accelerations).max())
+        slower = gps.time_path(checker, "all", [[-1.0], [1.0]], max_velocity_scaling_factor=0.5,
+                               max_acceleration_scaling_factor=0.5)
+        self.assertAlmostEqual(2.0 / 0.25 + 0.25 / 0.125, slower.times[-1])
+        turned = gps.time_path(checker, "all", [[-1.0], [1.0], [0.0]])
+        self.assertEqual((1, 0), (turned.blends, turned.stops))
+        self.assertGreater(turned.states_checked, 0)
+        self.assertEqual(1, gps.time_path(checker, "all", [[-1.0], [1.0], [0.0]], max_deviation=0.0).stops)
+        assumed = gps.time_path(gps.StateChecker(gps.PlanningScene(rail()), device="cpu"), "all", [[0.0]])
+        self.assertEqual((1, 1), assumed.accelerations.shape)
+        self.assertRegex(assumed.message, "^assumed limits, .*: acceleration 1 .* of slide$")
+        for error, pattern, arguments, options in (
+                (gps.Error, "^max_velocity_scaling_factor is 2; it must be above 0 and at most 1", [[0.0]],
+                 {"max_velocity_scaling_factor": 2.0}),
+                (gps.Error, "^the path has no waypoint", np.zeros((0, 1)), {}),
+                (gps.Error, "^waypoint 0: slide is nan", [[float("nan")]], {}),
+                (gps.Error, "waypoints", [[0.0, 0.0]], {}),
+                (TypeError, "waypoints", object(), {})):
+            self.assert_one_line(error, pattern, gps.time_path, checker, "all", arguments, **options)
 
     def test_a_path_is_optimized_for_the_time_that_is_given(self):
         checker = gps.StateChecker(arm_scene(), device="cpu")

@@ -286,7 +286,7 @@ TEST_F(GenerateAcm, PairsThatAreOnlyUnprovenForWiderLimitsAreProvenAnew)
   EXPECT_NE(std::string::npos, output.err.find("1 pairs of links that are disabled with the reason Never are checked"))
       << output.err;
   RobotModelOptions limits;
-  limits.position_limits = {{"slide", -1.0, 9.0}};
+  limits.joint_limits = {{"slide", -1.0, 9.0}};
   const auto reasons = reasonsOf(*RobotModel::fromFiles(urdf, out, limits));
   EXPECT_EQ("Never", reasons.at("mount-cover"));
   EXPECT_EQ(std::string::npos, output.err.find("  mount - cover")) << output.err;

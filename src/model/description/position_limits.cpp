@@ -7,6 +7,7 @@
 #include <urdf_model/model.h>
 
 #include "gpu_planning_scene/error.h"
+#include "model/description/velocity_limits.h"
 #include "model/text/name_list.h"
 #include "model/text/number_text.h"
 
@@ -44,14 +45,20 @@ Owner ownerOf(const RobotTree& tree, const std::string& name)
   return {};
 }
 
-/// Why limits of this variable have no effect, as in MoveIt; empty if they have an effect.
-std::string whyWithoutLimits(const Owner& owner)
+/// Why limits of this joint have no effect, as in MoveIt; empty if they have an effect.
+std::string whyWithoutLimits(const Joint& joint)
 {
-  const Joint& joint = *owner.joint;
   if (joint.type == JointType::Fixed)
     return "is fixed";
-  if (joint.mimic)
-    return "follows another joint, whose limits count";
+  return joint.mimic ? "follows another joint, whose limits count" : "";
+}
+
+/// The same for position limits of a variable of the joint.
+std::string whyWithoutPositionLimits(const Owner& owner)
+{
+  const Joint& joint = *owner.joint;
+  if (std::string reason = whyWithoutLimits(joint); !reason.empty())
+    return reason;
   if (joint.type == JointType::Continuous)
     return "is continuous; make it revolute in the URDF to limit it";
   if ((joint.type == JointType::Planar && owner.part == 2) || (joint.type == JointType::Floating && owner.part > 2))
@@ -61,7 +68,7 @@ std::string whyWithoutLimits(const Owner& owner)
 
 /// A warning if a limit of a revolute joint may be in degrees, because it is a whole or half number of more than two
 /// turns; else empty.
-std::string mayBeInDegrees(const PositionLimits& limits, const Joint& joint)
+std::string mayBeInDegrees(const JointLimits& limits, const Joint& joint)
 {
   constexpr double kTwoTurns = 4.0 * M_PI;
   for (const std::optional<double>& limit : {limits.min_position, limits.max_position})
@@ -74,7 +81,7 @@ std::string mayBeInDegrees(const PositionLimits& limits, const Joint& joint)
 }
 
 /// Returns whether the limits are wider than before.
-bool setLimits(const PositionLimits& limits, Variable& variable)
+bool setLimits(const JointLimits& limits, Variable& variable)
 {
   const std::string where = limits.source + ": '" + variable.name + "'";
   for (const std::optional<double>& limit : {limits.min_position, limits.max_position})
@@ -110,6 +117,7 @@ Variable limitedVariable(const urdf::Joint& joint, const std::string& where, std
   variable.bounded = true;
   variable.lower = joint.limits->lower;
   variable.upper = joint.limits->upper;
+  variable.max_velocity = velocityLimit(joint);
   if (variable.lower > variable.upper)
     throw Error(where + " has a lower limit above its upper limit (" + std::to_string(variable.lower) + " > " +
                 std::to_string(variable.upper) + ")");
@@ -132,24 +140,28 @@ Variable limitedVariable(const urdf::Joint& joint, const std::string& where, std
   return variable;
 }
 
-void applyPositionLimits(const std::vector<PositionLimits>& limits, RobotTree& tree, std::vector<std::string>& warnings)
+void applyJointLimits(const std::vector<JointLimits>& limits, RobotTree& tree, std::vector<std::string>& warnings)
 {
   std::vector<std::string> unknown;
-  for (const PositionLimits& entry : limits)
+  std::vector<std::string> unknown_without_positions;
+  for (const JointLimits& entry : limits)
   {
+    const bool has_positions = entry.min_position || entry.max_position;
     const Owner owner = ownerOf(tree, entry.variable);
     if (owner.joint == nullptr)
     {
-      unknown.push_back(entry.variable);
+      (has_positions ? unknown : unknown_without_positions).push_back(entry.variable);
       continue;
     }
     if (variableCount(owner.joint->type) > 1 && owner.joint->name == entry.variable)
       throw Error(entry.source + ": joint '" + entry.variable + "' has several variables; name them as '" +
                   tree.variables[static_cast<std::size_t>(owner.joint->first_variable)].name + "' and so on");
-    if (const std::string reason = whyWithoutLimits(owner); !reason.empty())
-      warnings.push_back(entry.source + ": the position limits of '" + entry.variable + "' are not used, because it " +
-                         reason);
-    else
+    const std::string prefix = entry.source + ": the " + (has_positions ? "position" : "velocity") + " limits of '" +
+                               entry.variable + "' are not used, because it ";
+    if (const std::string reason = has_positions ? whyWithoutPositionLimits(owner) : whyWithoutLimits(*owner.joint);
+        !reason.empty())
+      warnings.push_back(prefix + reason);
+    else if (has_positions)
     {
       if (std::string degrees = mayBeInDegrees(entry, *owner.joint); !degrees.empty())
         warnings.push_back(std::move(degrees));
@@ -157,9 +169,16 @@ void applyPositionLimits(const std::vector<PositionLimits>& limits, RobotTree& t
       if (setLimits(entry, tree.variables[static_cast<std::size_t>(variable)]))
         tree.widened.push_back(variable);
     }
+    if (whyWithoutLimits(*owner.joint).empty())
+      setVelocityLimits(entry, tree.variables[static_cast<std::size_t>(owner.joint->first_variable + owner.part)]);
   }
-  if (!unknown.empty())
-    warnings.push_back(limits.front().source + ": position limits are not used, because the robot does not have the " +
-                       "joint: " + nameList(unknown));
+  const auto warn = [&](const char* kind, const std::vector<std::string>& names)
+  {
+    if (!names.empty())
+      warnings.push_back(limits.front().source + ": " + kind +
+                         " limits are not used, because the robot does not have the joint: " + nameList(names));
+  };
+  warn("position", unknown);
+  warn("velocity", unknown_without_positions);
 }
 }  // namespace gpu_planning_scene::core

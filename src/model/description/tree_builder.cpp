@@ -9,6 +9,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/description/collision_shapes.h"
 #include "model/description/position_limits.h"
+#include "model/description/velocity_limits.h"
 #include "model/math_constants.h"
 
 namespace gpu_planning_scene::core
@@ -30,7 +31,7 @@ class TreeBuilder
       addVirtualJoint(*virtual_joint);
     addSubtree(root);
     resolveMimics();
-    applyPositionLimits(options_.position_limits, tree_, warnings_);
+    applyJointLimits(options_.joint_limits, tree_, warnings_);
     limitVariables(tree_);
     return std::move(tree_);
   }
@@ -150,6 +151,7 @@ class TreeBuilder
     if (joint.type == JointType::Continuous)
     {
       add("", kPi);
+      tree_.variables.back().max_velocity = velocityLimit(*description);
     }
     else if (joint.type == JointType::Planar)
     {

@@ -35,7 +35,7 @@ class LimitsReader
   {
   }
 
-  std::vector<PositionLimits> read(const XmlRpcValue& joints)
+  std::vector<JointLimits> read(const XmlRpcValue& joints)
   {
     requireMap(joints, folder_);
     for (const auto& [name, entry] : joints)
@@ -60,27 +60,25 @@ class LimitsReader
       const std::string name = folder_ + "/" + variable + "/" + key;
       if (member.getType() == XmlRpcValue::TypeStruct)
         readEntry(variable + "/" + key, member);
-      else if (key == "has_position_limits")
-        entry.has_position_limits = flagFrom(member, name);
-      else if (key == "min_position")
-        entry.min_position = numberFrom(member, name);
-      else if (key == "max_position")
-        entry.max_position = numberFrom(member, name);
-      else if (const std::string meant = misspeltPositionLimit(key); !meant.empty())
+      else if (const JointLimitsMember limit = memberOf(entry, key); limit.flag)
+        *limit.flag = flagFrom(member, name);
+      else if (limit.number)
+        *limit.number = numberFrom(member, name);
+      else if (const std::string meant = misspeltLimit(key); !meant.empty())
         throw Error("parameter " + name + ": unknown key" + meant);
     }
-    if (std::optional<PositionLimits> limits = positionLimits(entry, "parameter " + folder_, warnings_))
+    if (std::optional<JointLimits> limits = jointLimitsOf(entry, "parameter " + folder_, warnings_))
       limits_.push_back(std::move(*limits));
   }
 
   const std::string folder_;  // name of the parameter joint_limits
   std::vector<std::string>* const warnings_;
-  std::vector<PositionLimits> limits_;
+  std::vector<JointLimits> limits_;
 };
 }  // namespace
 
-std::vector<PositionLimits> positionLimitsFromParameters(const ros::NodeHandle& node, const std::string& folder,
-                                                         std::vector<std::string>* warnings)
+std::vector<JointLimits> jointLimitsFromParameters(const ros::NodeHandle& node, const std::string& folder,
+                                                   std::vector<std::string>* warnings)
 {
   XmlRpcValue parameters;
   if (!node.getParam(folder, parameters) || parameters.getType() != XmlRpcValue::TypeStruct)
@@ -91,6 +89,6 @@ std::vector<PositionLimits> positionLimitsFromParameters(const ros::NodeHandle& 
       throw Error("parameter " + name + "/" + key + ": unknown key" + meant);
   return parameters.hasMember("joint_limits")
              ? LimitsReader(name + "/joint_limits", warnings).read(parameters["joint_limits"])
-             : std::vector<PositionLimits>();
+             : std::vector<JointLimits>();
 }
 }  // namespace gpu_planning_scene::core

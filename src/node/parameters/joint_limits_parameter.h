@@ -9,9 +9,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// Reads the position limits of joint_limits in the parameters `folder`, usually /robot_description_planning, as
+/// Reads the limits of the joints of joint_limits in the parameters `folder`, usually /robot_description_planning, as
 /// MoveIt's RobotModelLoader does. `warnings` (may be null) gets a line for each contradiction. Throws Error, which
 /// names the parameter, for a value of the wrong type and for a misspelt name of a limit.
-std::vector<PositionLimits> positionLimitsFromParameters(const ros::NodeHandle& node, const std::string& folder,
-                                                         std::vector<std::string>* warnings);
+std::vector<JointLimits> jointLimitsFromParameters(const ros::NodeHandle& node, const std::string& folder,
+                                                   std::vector<std::string>* warnings);
 }  // namespace gpu_planning_scene::core

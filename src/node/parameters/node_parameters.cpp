@@ -162,7 +162,7 @@ PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHa
   if (urdf.empty())
     throw Error("parameter " + urdf_parameter +
                 " is not set; load the robot's URDF there, or give urdf:=FILE to the launch file");
-  options.position_limits = positionLimitsFromParameters(node, limitsFolder(node, own, urdf_parameter), warnings);
+  options.joint_limits = jointLimitsFromParameters(node, limitsFolder(node, own, urdf_parameter), warnings);
   const auto robot = RobotModel::fromXml(urdf, textParameter(node, srdf_parameter, ""), options, warnings)
                          ->withSolids(solidsFromParameters(own));
   defaults = defaultsFromParameters(node, urdf_parameter, *robot, warnings);

@@ -115,6 +115,7 @@ PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own)
   MotionSteps& steps = options.motions.steps;
   steps.revolute = positiveParameter(own, "planning/resolution", steps.revolute);
   steps.prismatic = positiveParameter(own, "planning/translation_resolution", steps.prismatic);
+  options.max_deviation = lengthParameter(own, "planning/max_deviation", options.max_deviation);
   options.at_once = countParameter(own, "planning/at_once", options.at_once, 1, kMaxAtOnce);
   options.max_waiting = countParameter(own, "limits/waiting_plans", options.max_waiting, 0, kNoLimit);
   options.max_goals = countParameter(own, "limits/goals", options.max_goals, 1, kNoLimit);
@@ -211,6 +212,19 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
   refuseCostly(query.parameters, space.getMaximumExtent(), options.max_parameter);
   query.projection = planners.projection;
   return query;
+}
+
+std::optional<PathTimingOptions> timingFrom(const PlanMotion::Request& request, const RobotModel& robot,
+                                            const MotionCheckerOptions& motions, const PlanServiceOptions& options)
+{
+  const auto factor = [](double requested) { return requested == 0.0 ? 1.0 : requested; };
+  const PathTimingOptions timing{factor(request.max_velocity_scaling_factor),
+                                 factor(request.max_acceleration_scaling_factor), options.max_deviation, motions};
+  validateTiming(timing);
+  if (!request.times)
+    return std::nullopt;
+  requireTimes(robot, request.group);
+  return timing;
 }
 
 std::string startBeyondGroup(const PlanMotion::Request& request, const Snapshot& now, const std::vector<double>& start)

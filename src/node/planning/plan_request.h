@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include <gpu_planning_scene/PlanMotion.h>
 #include <ros/node_handle.h>
 
+#include "gpu_planning_scene/planning/path_timing.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
 #include "planners/planner_configs.h"
 #include "service/scene_store.h"
@@ -16,6 +18,7 @@ struct PlanServiceOptions
   double seconds = 5.0;              ///< planning time of a request that names none: ~planning/time
   double max_seconds = 120.0;        ///< ~limits/planning_time
   MotionCheckerOptions motions;      ///< ~planning/motion_rule, ~planning/resolution, ~planning/translation_resolution
+  double max_deviation = 0.05;       ///< see PathTimingOptions: ~planning/max_deviation
   std::size_t at_once = 2;           ///< requests that are planned at the same time: ~planning/at_once
   std::size_t max_waiting = 16;      ///< queued requests: ~limits/waiting_plans
   std::size_t max_goals = 1000;      ///< goals of a request: ~limits/goals
@@ -29,6 +32,11 @@ PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own);
 /// settings of the requested group. Throws Error for a wrong request.
 PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now, const PlannerConfig& config,
                         const GroupPlanners& planners, const PlanServiceOptions& options);
+
+/// How to compute the times of the path; no value if the request wants none. `motions`: of the query. Throws Error for
+/// a scaling factor that is neither 0 nor within its range, and for a group without times.
+std::optional<PathTimingOptions> timingFrom(const PlanMotion::Request& request, const RobotModel& robot,
+                                            const MotionCheckerOptions& motions, const PlanServiceOptions& options);
 
 /// A warning if the named start of a request replaces known values of variables outside the group, for example of
 /// another arm that has a state of this name too; otherwise empty. `start`: of the query.

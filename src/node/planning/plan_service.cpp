@@ -43,20 +43,39 @@ std::uint8_t statusOf(PlanningStatus status)
   return Response::FAILED;
 }
 
+/// The values of the group's variables in a full row.
+std::vector<double> valuesOf(const std::vector<double>& row, const Group& group)
+{
+  std::vector<double> values;
+  for (const int variable : group.variables)
+    values.push_back(row[static_cast<std::size_t>(variable)]);
+  return values;
+}
+
+/// `timed`: null for waypoints without times.
 trajectory_msgs::JointTrajectory trajectoryOf(const PlanningScene& scene, const PlanningResult& result,
-                                              const Group& group)
+                                              const TimedPath* timed, const Group& group)
 {
   trajectory_msgs::JointTrajectory trajectory;
   trajectory.header.frame_id = scene.robot->planningFrame();
   for (const int variable : group.variables)
     trajectory.joint_names.push_back(scene.robot->variables()[static_cast<std::size_t>(variable)].name);
-  for (const std::vector<double>& row : result.waypoints)
+  const auto add = [&](const std::vector<double>& row) -> trajectory_msgs::JointTrajectoryPoint&
   {
-    trajectory_msgs::JointTrajectoryPoint point;
-    for (const int variable : group.variables)
-      point.positions.push_back(row[static_cast<std::size_t>(variable)]);
-    trajectory.points.push_back(std::move(point));
-  }
+    trajectory.points.emplace_back().positions = valuesOf(row, group);
+    return trajectory.points.back();
+  };
+  if (timed == nullptr)
+    for (const std::vector<double>& row : result.waypoints)
+      add(row);
+  else
+    for (const TimedPoint& timed_point : timed->points)
+    {
+      trajectory_msgs::JointTrajectoryPoint& point = add(timed_point.positions);
+      point.velocities = valuesOf(timed_point.velocities, group);
+      point.accelerations = valuesOf(timed_point.accelerations, group);
+      point.time_from_start = ros::Duration(timed_point.seconds);
+    }
   return trajectory;
 }
 
@@ -197,19 +216,25 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
                            request.goals.size() / request.goal_names.size());
   if (turned)
     warnings.push_back(turned->text);
-  return {now.scene, std::move(query), factory, config.type, std::move(warnings)};
+  auto timing = timingFrom(request, robot, query.motions, options_);
+  return {now.scene, std::move(query), timing, factory, config.type, std::move(warnings)};
 }
 
-PlanningResult PlanService::plan(const Task& task)
+PlanService::Answer PlanService::plan(const Task& task)
 {
   CheckerPool::Lease lease(checkers_, task.scene);
   const auto stop = [this] { return stopping_.load(); };
   try
   {
-    PlanningResult result =
-        asRequestError([&] { return planMotion(task.scene, lease.checker(), task.query, *task.factory, stop); });
+    Answer answer{
+        asRequestError([&] { return planMotion(task.scene, lease.checker(), task.query, *task.factory, stop); }), {}};
+    if (task.timing && !answer.plan.waypoints.empty())
+      answer.timed = asRequestError(
+          [&] {
+            return timePath(*task.scene, lease.checker(), task.query.group, answer.plan.waypoints, *task.timing, stop);
+          });
     lease.giveBack();
-    return result;
+    return answer;
   }
   catch (const BadRequest&)
   {
@@ -223,20 +248,28 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
   memory_.require();
   const Admission::Pass pass(admission_);
   const Task task = asRequestError([&] { return taskOf(request); });
-  const PlanningResult result = plan(task);
+  const Answer answer = plan(task);
+  const PlanningResult& result = answer.plan;
   if (stopping_)
     throw Error("shutting down: the request was not answered");
   const Group& group = task.scene->robot->group(request.group);
   response.status = statusOf(result.status);
   response.message = result.message;
   addWarnings(task.warnings, response.message);
-  response.trajectory = trajectoryOf(*task.scene, result, group);
+  response.trajectory = trajectoryOf(*task.scene, result, answer.timed ? &*answer.timed : nullptr, group);
   response.planner = task.planner;
   response.planning_time = result.planning_seconds;
   response.simplification_time = result.simplification_seconds;
   response.checking_time = result.checking_seconds;
   response.states_checked = result.states_checked;
   response.scene_revision = result.revision;
+  if (answer.timed)
+  {
+    addWarning(answer.timed->message, response.message);
+    response.planning_time += answer.timed->seconds;
+    response.checking_time += answer.timed->checking_seconds;
+    response.states_checked += answer.timed->states_checked;
+  }
   paths_.show(task.scene, result.waypoints, group);
 }
 }  // namespace gpu_planning_scene::core

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <ros/node_handle.h>
@@ -45,14 +46,21 @@ class PlanService
   {
     std::shared_ptr<const PlanningScene> scene;
     PlanningQuery query;
+    std::optional<PathTimingOptions> timing;  // no value: the answer has no times
     std::shared_ptr<const PlannerFactory> factory;
     std::string planner;                // plugin name of the planner
     std::vector<std::string> warnings;  // for the answer
   };
 
+  struct Answer
+  {
+    PlanningResult plan;
+    std::optional<TimedPath> timed;  // of a path, if the request wants times
+  };
+
   void fill(const PlanMotion::Request& request, PlanMotion::Response& response);
   Task taskOf(const PlanMotion::Request& request);
-  PlanningResult plan(const Task& task);
+  Answer plan(const Task& task);
 
   const SceneStore& store_;
   const SceneStore::Lookup lookup_;

@@ -9,15 +9,15 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-class PositionLimitsReader
+class JointLimitsReader
 {
  public:
-  PositionLimitsReader(std::string source, std::vector<std::string>* warnings)
+  JointLimitsReader(std::string source, std::vector<std::string>* warnings)
     : source_(std::move(source)), warnings_(warnings)
   {
   }
 
-  std::vector<PositionLimits> read(const YamlValue& file)
+  std::vector<JointLimits> read(const YamlValue& file)
   {
     for (const auto& [key, value] : file.members())
     {
@@ -32,7 +32,7 @@ class PositionLimitsReader
       for (const auto& [name, entry] : limits->members())
         readEntry(name, entry);
     if (limits_.empty())
-      warn(source_ + ": no position limits: joint_limits has no min_position and no max_position");
+      warn(source_ + ": no limits: joint_limits has no min_position, max_position, max_velocity or max_acceleration");
     return std::move(limits_);
   }
 
@@ -67,30 +67,28 @@ class PositionLimitsReader
     for (const auto& [key, member] : value.members())
       if (member.kind() == YamlValue::Kind::Map)
         readEntry(name + "/" + key, member);
-      else if (key == "has_position_limits")
-        entry.has_position_limits = member.boolean();
-      else if (key == "min_position")
-        entry.min_position = member.number();
-      else if (key == "max_position")
-        entry.max_position = member.number();
-      else if (const std::string meant = misspeltPositionLimit(key); !meant.empty())
+      else if (const JointLimitsMember limit = memberOf(entry, key); limit.flag)
+        *limit.flag = member.boolean();
+      else if (limit.number)
+        *limit.number = member.number();
+      else if (const std::string meant = misspeltLimit(key); !meant.empty())
         member.fail("'" + name + "': unknown key '" + key + "'" + meant);
-    if (std::optional<PositionLimits> limits = positionLimits(entry, source_, warnings_))
+    if (std::optional<JointLimits> limits = jointLimitsOf(entry, source_, warnings_))
       limits_.push_back(std::move(*limits));
   }
 
   const std::string source_;
   std::vector<std::string>* const warnings_;
-  std::vector<PositionLimits> limits_;
+  std::vector<JointLimits> limits_;
 };
 
-std::vector<PositionLimits> read(const YamlValue& file, const std::string& name, std::vector<std::string>* warnings)
+std::vector<JointLimits> read(const YamlValue& file, const std::string& name, std::vector<std::string>* warnings)
 {
-  return PositionLimitsReader(name, warnings).read(file);
+  return JointLimitsReader(name, warnings).read(file);
 }
 }  // namespace
 
-std::vector<PositionLimits> readPositionLimits(const std::string& path, std::vector<std::string>* warnings)
+std::vector<JointLimits> readJointLimits(const std::string& path, std::vector<std::string>* warnings)
 {
   try
   {
@@ -102,8 +100,8 @@ std::vector<PositionLimits> readPositionLimits(const std::string& path, std::vec
   }
 }
 
-std::vector<PositionLimits> positionLimitsFromText(const std::string& text, const std::string& name,
-                                                   std::vector<std::string>* warnings)
+std::vector<JointLimits> jointLimitsFromText(const std::string& text, const std::string& name,
+                                             std::vector<std::string>* warnings)
 {
   try
   {

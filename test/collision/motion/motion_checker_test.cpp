@@ -652,7 +652,7 @@ TEST(MotionsOfBases, AreNotProvenFreeOutsideTheLimitsOfTheirTranslations)
   {
     const std::string y = type == "planar" ? "drive/y" : "drive/trans_y";
     RobotModelOptions options;
-    options.position_limits = {{y, -5.0, 5.0}};
+    options.joint_limits = {{y, -5.0, 5.0}};
     const auto robot = RobotModel::fromXml("<robot name='r'>" + boxLink("body") + "</robot>",
                                            "<robot name='r'><virtual_joint name='drive' type='" + type +
                                                "' parent_frame='world' child_link='body'/></robot>",

@@ -135,7 +135,7 @@ TEST(MotionsOfADifferentialDrive, AreRefusedIfTheyGoSideways)
 TEST(MotionsBesideAFloor, ThatAreNotProvenSaySo)
 {
   RobotModelOptions options;
-  options.position_limits = {{"drive/x", -100.0, 100.0}};
+  options.joint_limits = {{"drive/x", -100.0, 100.0}};
   const auto robot = RobotModel::fromXml(
       "<robot name='r'>" + boxLink("body") + "</robot>",
       "<robot name='r'><virtual_joint name='drive' type='planar' parent_frame='world' child_link='body'/></robot>",

@@ -56,6 +56,34 @@ TEST_F(BaseRequest, HasTheWorkspaceOfItsMessage)
   EXPECT_NE(std::string::npos, errorOf([this] { query(); }).find("give them in the planning frame 'hall'"));
 }
 
+TEST_F(BaseRequest, ScalesVelocitiesAsMoveItDoes)
+{
+  PlanServiceOptions options;
+  options.max_deviation = 0.02;
+  const auto timing = [&] { return timingFrom(request_, *robot(), {MotionRule::Samples}, options); };
+  EXPECT_FALSE(timing());
+  request_.times = true;
+  ASSERT_TRUE(timing());
+  EXPECT_EQ(1.0, timing()->max_velocity_scaling_factor);
+  EXPECT_EQ(1.0, timing()->max_acceleration_scaling_factor);
+  EXPECT_EQ(0.02, timing()->max_deviation);
+  EXPECT_EQ(MotionRule::Samples, timing()->motions.rule);
+  request_.max_velocity_scaling_factor = 0.5;
+  request_.max_acceleration_scaling_factor = 0.25;
+  EXPECT_EQ(0.5, timing()->max_velocity_scaling_factor);
+  EXPECT_EQ(0.25, timing()->max_acceleration_scaling_factor);
+  for (const bool times : {true, false})
+    for (const double wrong : {-0.1, 1.1, std::nan("")})
+    {
+      request_.times = times;
+      request_.max_velocity_scaling_factor = wrong;
+      request_.max_acceleration_scaling_factor = 0.0;
+      EXPECT_EQ(0U, errorOf([&] { timing(); }).find("max_velocity_scaling_factor is "));
+      std::swap(request_.max_velocity_scaling_factor, request_.max_acceleration_scaling_factor);
+      EXPECT_EQ(0U, errorOf([&] { timing(); }).find("max_acceleration_scaling_factor is "));
+    }
+}
+
 /// For example the state "ready" of two arms: it also sets the arm that is not planned for.
 TEST(NamedStart, ThatReplacesKnownValuesOutsideTheGroupGivesAWarning)
 {

@@ -108,6 +108,43 @@ TEST_F(Planning, OptimizesForAsLongAsTheRequestSays)
   expectStatus(wanted, Response::BAD_REQUEST, "optimize is 1000000.000000 s; it must be from 0 to");
 }
 
+TEST_F(Planning, HasTimesIfTheRequestWantsThem)
+{
+  PlanMotion::Request wanted = request();
+  wanted.times = true;
+  wanted.max_velocity_scaling_factor = 0.5;
+  const Response response = plan(wanted);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_NE(response.message.find("acceleration 1 (rad/s^2 or m/s^2) of slide, turn"), std::string::npos)
+      << response.message;
+  const auto& points = response.trajectory.points;
+  ASSERT_GT(points.size(), 4u);
+  EXPECT_EQ(points.front().positions, wanted.start);
+  EXPECT_EQ(points.back().positions, wanted.goals);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    ASSERT_EQ(points[i].velocities.size(), 2u);
+    ASSERT_EQ(points[i].accelerations.size(), 2u);
+    for (const double velocity : points[i].velocities)
+      EXPECT_LE(std::abs(velocity), 0.5 + 1e-9);
+    for (const double acceleration : points[i].accelerations)
+      EXPECT_LE(std::abs(acceleration), 1.0 + 1e-9);
+    if (i > 0)
+      EXPECT_GT(points[i].time_from_start, points[i - 1].time_from_start);
+  }
+  for (const auto* end : {&points.front(), &points.back()})
+    EXPECT_EQ(end->velocities, (std::vector<double>{0.0, 0.0}));
+  EXPECT_GE(points.back().time_from_start.toSec(), 4.0);
+  wanted.times = false;
+  expectSolved(plan(wanted), wanted.start, wanted.goals);
+  EXPECT_TRUE(plan(wanted).trajectory.points.front().velocities.empty());
+  for (const double factor : {-0.5, 1.5})
+  {
+    wanted.max_velocity_scaling_factor = factor;
+    expectStatus(wanted, Response::BAD_REQUEST, "max_velocity_scaling_factor is ");
+  }
+}
+
 TEST_F(Planning, InAChangedSceneOfTheRequestLeavesTheSceneAsItIs)
 {
   const PlanningSceneMessage before = scene();
