@@ -17,9 +17,12 @@ add_message_files(FILES
   AllowedCollisionEntry.msg
   AllowedCollisionMatrix.msg
   AttachedCollisionObject.msg
+  BoundingVolume.msg
   CollisionObject.msg
+  Constraints.msg
   ContactInformation.msg
   BodySolid.msg
+  JointConstraint.msg
   LinkPadding.msg
   LinkScale.msg
   NearestPair.msg
@@ -27,9 +30,11 @@ add_message_files(FILES
   ObjectType.msg
   Octomap.msg
   OctomapWithPose.msg
+  OrientationConstraint.msg
   PlanningScene.msg
   PlanningSceneComponents.msg
   PlanningSceneWorld.msg
+  PositionConstraint.msg
   RobotState.msg
   WorkspaceParameters.msg)
 add_service_files(FILES

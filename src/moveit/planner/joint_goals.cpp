@@ -204,6 +204,13 @@ std::vector<double> GoalRegion::sample(std::mt19937_64& random) const
   return row;
 }
 
+void addJointRanges(const moveit_msgs::Constraints& constraints, const moveit::core::RobotModel& model,
+                    const RobotConversion& robot, core::KinematicConstraints& ranges)
+{
+  for (const auto& [index, value] : wantedValues(constraints, model, robot))
+    ranges.addJoint(*robot.robot(), index, value.lower, value.upper);
+}
+
 bool isJointGoal(const moveit_msgs::Constraints& constraints)
 {
   return !constraints.joint_constraints.empty() && constraints.position_constraints.empty() &&

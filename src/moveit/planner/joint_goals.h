@@ -6,6 +6,7 @@
 
 #include <moveit_msgs/Constraints.h>
 
+#include "gpu_planning_scene/kinematic_constraints.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "moveit/planner/robot_conversion.h"
 
@@ -41,6 +42,10 @@ class GoalRegion
   std::vector<double> middle_;
   std::vector<Range> ranges_;  // of the group's variables
 };
+
+/// Adds the ranges of joint constraints to `ranges`. Throws Refusal if a constraint is not valid.
+void addJointRanges(const moveit_msgs::Constraints& constraints, const moveit::core::RobotModel& model,
+                    const RobotConversion& robot, core::KinematicConstraints& ranges);
 
 /// Whether the constraints are joint constraints only, at least one.
 bool isJointGoal(const moveit_msgs::Constraints& constraints);

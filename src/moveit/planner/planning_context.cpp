@@ -11,6 +11,7 @@
 
 #include "gpu_planning_scene/interpolation.h"
 #include "model/seconds_since.h"
+#include "moveit/planner/pose_constraints.h"
 #include "moveit/planner/refusal.h"
 #include "moveit/planner/request.h"
 
@@ -72,6 +73,12 @@ std::int32_t codeOf(core::PlanningStatus status, bool in_time)
       return MoveItErrorCodes::GOAL_IN_COLLISION;
     case core::PlanningStatus::OutOfBounds:  // goals are within their limits
       return MoveItErrorCodes::START_STATE_INVALID;
+    case core::PlanningStatus::GoalUnreachable:
+      return MoveItErrorCodes::NO_IK_SOLUTION;
+    case core::PlanningStatus::StartViolatesConstraints:
+      return MoveItErrorCodes::START_STATE_VIOLATES_PATH_CONSTRAINTS;
+    case core::PlanningStatus::GoalViolatesConstraints:
+      return MoveItErrorCodes::GOAL_VIOLATES_PATH_CONSTRAINTS;
     case core::PlanningStatus::Approximate:
     case core::PlanningStatus::NoSolution:
       break;
@@ -145,10 +152,17 @@ PlanningContext::Outcome PlanningContext::planOrThrow()
   query.start = converted.scene->current_state;
   std::vector<GoalRegion> regions;
   for (const moveit_msgs::Constraints& goal : request_.goal_constraints)
-    regions.emplace_back(goal, model, *converted.robot, space, query.start);
+    if (isJointGoal(goal))
+      regions.emplace_back(goal, model, *converted.robot, space, query.start);
+    else
+      query.goal_regions.push_back(kinematicConstraints(goal, scene, start, group, *converted.robot,
+                                                        MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS, "the goal"));
+  query.path_constraints = kinematicConstraints(request_.path_constraints, scene, start, group, *converted.robot,
+                                                MoveItErrorCodes::PLANNING_FAILED, "the path constraints");
 
   core::CheckerPool::Lease lease(workshop_->checkers, converted.scene);
-  query.goals = goalStates(regions, *lease.checker(), getGroupName());
+  if (!regions.empty())
+    query.goals = goalStates(regions, *lease.checker(), getGroupName());
   query.seconds = request_.allowed_planning_time - core::secondsSince(begin);
   const bool has_time = query.seconds >= kLeastSeconds;
   core::PlanningResult result;

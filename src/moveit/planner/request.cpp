@@ -6,7 +6,6 @@
 
 #include <moveit/robot_state/conversions.h>
 
-#include "moveit/planner/joint_goals.h"
 #include "moveit/planner/refusal.h"
 
 // MoveIt's conversion of a start state logs the parts that it cannot use, and leaves them out. Here the request is
@@ -131,8 +130,9 @@ void requireSupported(const planning_interface::MotionPlanRequest& request, cons
 {
   if (!model.hasJointModelGroup(request.group_name))
     throw Refusal(MoveItErrorCodes::INVALID_GROUP_NAME, "the robot has no group '" + request.group_name + "'");
-  if (isConstrained(request.path_constraints))
-    throw Refusal(MoveItErrorCodes::PLANNING_FAILED, "path constraints are not planned for; use another pipeline");
+  if (!request.path_constraints.visibility_constraints.empty())
+    throw Refusal(MoveItErrorCodes::PLANNING_FAILED,
+                  "path constraints of visibility are not planned for; use another pipeline");
   if (!request.trajectory_constraints.constraints.empty())
     throw Refusal(MoveItErrorCodes::PLANNING_FAILED,
                   "trajectory constraints are not planned for; use another pipeline");
@@ -142,10 +142,9 @@ void requireSupported(const planning_interface::MotionPlanRequest& request, cons
   {
     if (!isConstrained(goal))
       throw Refusal(MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS, "a goal has no constraint");
-    if (!isJointGoal(goal))
+    if (!goal.visibility_constraints.empty())
       throw Refusal(MoveItErrorCodes::UNRECOGNIZED_GOAL_TYPE,
-                    "only goals of joint constraints are planned for; sample joint values for a pose first, or use "
-                    "another pipeline");
+                    "goals of visibility constraints are not planned for; use another pipeline");
   }
   requirePlannable(*model.getJointModelGroup(request.group_name));
 }

@@ -9,8 +9,8 @@
 
 namespace gpu_planning_scene::pipeline
 {
-/// Throws Refusal for a request that the planner does not plan: an unknown group, path or trajectory constraints, goals
-/// other than joint constraints, no goal.
+/// Throws Refusal for a request that the planner does not plan: an unknown group, trajectory or visibility constraints,
+/// no goal.
 void requireSupported(const planning_interface::MotionPlanRequest& request, const moveit::core::RobotModel& model);
 
 /// The start state of a request: the scene's current state, changed by `request.start_state`. Throws Refusal if a part

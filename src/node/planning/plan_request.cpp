@@ -14,6 +14,7 @@
 #include "model/text/parse_number.h"
 #include "node/messages/requested_states.h"
 #include "node/parameters/parameter_values.h"
+#include "node/planning/requested_goals.h"
 #include "planning/waypoints.h"
 
 namespace gpu_planning_scene::core
@@ -168,17 +169,20 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
   NamedRow goal_rows{request.goal_names, request.goals};
   if (!request.named_goal.empty())
     goal_rows = namedGoal(request, space);
-  const std::vector<int> columns =
-      requestedColumns(robot, {"goal_names", goal_rows.names}, {"goals", goal_rows.values}, few);
-  requirePlannedFor(columns, space);
-  requireWholeRotations(robot, columns);
-  const std::size_t width = columns.size();
-  const PartialState start(robot, query.start);
-  const std::size_t goals = goal_rows.values.size() / width;
-  const std::vector<double> rows = fullStates(robot, columns, goal_rows.values.data(), goals, start);
-  for (std::size_t i = 0; i < goals; ++i)
-    query.goals.emplace_back(rows.begin() + static_cast<std::ptrdiff_t>(i * query.start.size()),
-                             rows.begin() + static_cast<std::ptrdiff_t>((i + 1) * query.start.size()));
+  if (!goal_rows.names.empty() || !goal_rows.values.empty() || !hasGoalRegions(request))
+  {
+    const std::vector<int> columns =
+        requestedColumns(robot, {"goal_names", goal_rows.names}, {"goals", goal_rows.values}, few);
+    requirePlannedFor(columns, space);
+    requireWholeRotations(robot, columns);
+    const std::size_t width = columns.size();
+    const PartialState start(robot, query.start);
+    const std::size_t goals = goal_rows.values.size() / width;
+    const std::vector<double> rows = fullStates(robot, columns, goal_rows.values.data(), goals, start);
+    for (std::size_t i = 0; i < goals; ++i)
+      query.goals.emplace_back(rows.begin() + static_cast<std::ptrdiff_t>(i * query.start.size()),
+                               rows.begin() + static_cast<std::ptrdiff_t>((i + 1) * query.start.size()));
+  }
 
   query.seconds = request.allowed_planning_time == 0.0 ? options.seconds : request.allowed_planning_time;
   if (query.seconds > options.max_seconds)

@@ -13,6 +13,7 @@
 #include "model/joint_limits.h"
 #include "node/endpoints/respond.h"
 #include "node/messages/requested_changes.h"
+#include "node/planning/requested_goals.h"
 #include "service/busy.h"
 
 namespace gpu_planning_scene::core
@@ -39,6 +40,12 @@ std::uint8_t statusOf(PlanningStatus status)
       return Response::GOAL_IN_COLLISION;
     case PlanningStatus::OutOfBounds:
       return Response::OUT_OF_BOUNDS;
+    case PlanningStatus::GoalUnreachable:
+      return Response::GOAL_UNREACHABLE;
+    case PlanningStatus::StartViolatesConstraints:
+      return Response::START_VIOLATES_CONSTRAINTS;
+    case PlanningStatus::GoalViolatesConstraints:
+      return Response::GOAL_VIOLATES_CONSTRAINTS;
   }
   return Response::FAILED;
 }
@@ -199,6 +206,7 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
   warnings.insert(warnings.end(), preview.warnings.begin(), preview.warnings.end());
   const Snapshot& now = preview.snapshot;
   PlanningQuery query = queryFrom(request, now, config, configs_.ofGroup(request.group), options_);
+  addRegions(request, *now.scene, lookup_, options_.max_goals, query);
   if (std::string base = now.assumedBase(variableIndices(*now.scene->robot, request.start_names)); !base.empty())
     warnings.push_back(std::move(base));
   if (std::string beyond = startBeyondGroup(request, now, query.start); !beyond.empty())
@@ -217,6 +225,8 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
   if (turned)
     warnings.push_back(turned->text);
   auto timing = timingFrom(request, robot, query.motions, options_);
+  if (timing && !query.path_constraints.isEmpty())
+    timing->max_deviation = 0.0;  // a rounded corner could leave the constraints
   return {now.scene, std::move(query), timing, factory, config.type, std::move(warnings)};
 }
 

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstddef>
+
+#include "gpu_planning_scene/planning/plan_motion.h"
+#include "node/messages/messages.h"
+#include "service/scene_store.h"
+
+namespace gpu_planning_scene::core
+{
+/// Whether a request has goals other than joint values.
+bool hasGoalRegions(const PlanMotion::Request& request);
+
+/// Adds the goal poses, the goal constraints and the path constraints of a request to its query, which has the group
+/// and the start. `lookup`: finds frames that the scene does not have. Throws Error for a wrong request.
+void addRegions(const PlanMotion::Request& request, const PlanningScene& scene, const SceneStore::Lookup& lookup,
+                std::size_t max_goals, PlanningQuery& query);
+
+/// Constraints of a request that hold along motions of a group. `state`: where frames that move with the robot are.
+/// Throws Error for a wrong message, and for a frame that the group moves.
+KinematicConstraints requestedPathConstraints(const Constraints& message, const PlanningScene& scene,
+                                              const std::string& group, const double* state,
+                                              const SceneStore::Lookup& lookup);
+}  // namespace gpu_planning_scene::core
