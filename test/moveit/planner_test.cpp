@@ -16,6 +16,7 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/moveit/collision_detector_allocator.h"
 #include "moveit/moveit_resources.h"
+#include "moveit/panda_planner.h"
 #include "moveit/planner/scene_conversion.h"
 #include "moveit/planner_fixtures.h"
 
@@ -34,115 +35,6 @@ using planning_interface::MotionPlanRequest;
 using planning_interface::MotionPlanResponse;
 
 const bool kReady = (useBuiltPlugins(), true);
-
-constexpr char kArm[] = "panda_arm";
-
-class Planner : public testing::Test
-{
- protected:
-  Planner() : scene_(std::make_shared<planning_scene::PlanningScene>(robot())), start_(robot()), goal_(robot())
-  {
-    start_.setToDefaultValues();
-    start_.setJointGroupPositions(kArm, std::vector<double>{-1.2, -0.3, 0.0, -2.0, 0.0, 1.7, 0.8});
-    start_.update();
-    goal_ = start_;
-    goal_.setJointGroupPositions(kArm, std::vector<double>{1.2, -0.3, 0.0, -2.0, 0.0, 1.7, 0.8});
-    goal_.update();
-    scene_->setCurrentState(start_);
-  }
-
-  static const moveit::core::RobotModelPtr& robot()
-  {
-    static const moveit::core::RobotModelPtr model = moveit::core::loadTestingRobotModel("panda");
-    return model;
-  }
-
-  static planning_interface::PlannerManager& manager()
-  {
-    static const planning_interface::PlannerManagerPtr manager = loadManager(robot());
-    return *manager;
-  }
-
-  /// A request from the scene's current state to goal_.
-  MotionPlanRequest request(const RobotState& goal, double tolerance = 1e-4) const
-  {
-    MotionPlanRequest request;
-    request.group_name = kArm;
-    request.allowed_planning_time = 20.0;
-    request.num_planning_attempts = 1;
-    request.start_state.is_diff = true;
-    request.goal_constraints.push_back(
-        kinematic_constraints::constructGoalConstraints(goal, robot()->getJointModelGroup(kArm), tolerance));
-    return request;
-  }
-
-  int plan(const MotionPlanRequest& request, MotionPlanResponse& response) const
-  {
-    moveit_msgs::MoveItErrorCodes code;
-    const planning_interface::PlanningContextPtr context = manager().getPlanningContext(scene_, request, code);
-    if (!context)
-      return code.val;
-    const bool solved = context->solve(response);
-    EXPECT_EQ(solved, response.error_code_.val == MoveItErrorCodes::SUCCESS);
-    EXPECT_EQ(solved, response.trajectory_ != nullptr);
-    return response.error_code_.val;
-  }
-
-  int plan(const MotionPlanRequest& request) const
-  {
-    MotionPlanResponse response;
-    return plan(request, response);
-  }
-
-  bool collides(const RobotState& state) const { return scene_->isStateColliding(state, kArm); }
-
-  /// The number of states of a path that collide: 100 in each motion between two waypoints.
-  int collidingStates(const robot_trajectory::RobotTrajectory& path) const
-  {
-    int count = 0;
-    RobotState state = path.getFirstWayPoint();
-    for (std::size_t i = 1; i < path.getWayPointCount(); ++i)
-      for (int k = 0; k <= 100; ++k)
-      {
-        path.getWayPoint(i - 1).interpolate(path.getWayPoint(i), 0.01 * k, state);
-        state.update();
-        count += collides(state) ? 1 : 0;
-      }
-    return count;
-  }
-
-  bool fulfils(const RobotState& state, const moveit_msgs::Constraints& goal) const
-  {
-    kinematic_constraints::KinematicConstraintSet constraints(robot());
-    constraints.add(goal, scene_->getTransforms());
-    return constraints.decide(state).satisfied;
-  }
-
-  void addObject(const std::string& name, const shapes::ShapeConstPtr& shape, const Isometry3d& pose)
-  {
-    scene_->getWorldNonConst()->addToObject(name, pose, shape, Isometry3d::Identity());
-  }
-
-  /// A post in front of the robot, between start and goal.
-  void addPost() { addObject("post", box(0.1, 0.1, 1.6), at(0.5, 0.0, 0.8)); }
-
-  /// A box at the hand in the goal.
-  void addBoxInGoal() { addObject("box", box(0.1, 0.1, 0.1), goal_.getGlobalLinkTransform("panda_hand")); }
-
-  void attachBox(const std::set<std::string>& touch_links, const Vector3d& size, const Isometry3d& pose)
-  {
-    RobotState& state = scene_->getCurrentStateNonConst();
-    state.attachBody("tool", pose, {box(size.x(), size.y(), size.z())}, {Isometry3d::Identity()}, touch_links,
-                     "panda_hand");
-    state.update();
-  }
-
-  planning_scene::PlanningScenePtr scene_;
-  RobotState start_;
-  RobotState goal_;
-};
-
-const std::set<std::string> kHandLinks = {"panda_hand", "panda_leftfinger", "panda_rightfinger"};
 
 TEST_F(Planner, FindsAPathAroundObjectsThatIsFreeForFcl)
 {
@@ -293,7 +185,7 @@ TEST_F(Planner, RefusesGroupsConstraintsAndGoalsThatItDoesNotPlanFor)
   asked.group_name = "no_such_group";
   EXPECT_EQ(int(MoveItErrorCodes::INVALID_GROUP_NAME), refused(asked));
   asked = request(goal_);
-  asked.path_constraints = asked.goal_constraints[0];
+  asked.path_constraints.visibility_constraints.resize(1);
   EXPECT_EQ(int(MoveItErrorCodes::PLANNING_FAILED), refused(asked));
   asked = request(goal_);
   asked.trajectory_constraints.constraints.resize(1);
@@ -301,10 +193,9 @@ TEST_F(Planner, RefusesGroupsConstraintsAndGoalsThatItDoesNotPlanFor)
   asked = request(goal_);
   asked.goal_constraints.clear();
   EXPECT_EQ(int(MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS), refused(asked));
-  geometry_msgs::PoseStamped pose;
-  pose.header.frame_id = "panda_link0";
-  pose.pose.orientation.w = 1.0;
-  asked.goal_constraints.push_back(kinematic_constraints::constructGoalConstraints("panda_link8", pose));
+  moveit_msgs::VisibilityConstraint visibility;
+  asked.goal_constraints.resize(1);
+  asked.goal_constraints[0].visibility_constraints.push_back(visibility);
   EXPECT_EQ(int(MoveItErrorCodes::UNRECOGNIZED_GOAL_TYPE), refused(asked));
 }
 

@@ -27,7 +27,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 std::shared_ptr<const RobotModel> withMatrix(const RealRobot& robot, const std::string& srdf)
 {
   GeneratorOptions generator;
-  generator.samples = 1000;
+  generator.samples = 300;
   generator.proof_tests = 0;
   const std::shared_ptr<const RobotModel> bare = load(robot, "");
   GeneratedMatrix matrix = generateMatrix(bare, generator);
@@ -35,9 +35,8 @@ std::shared_ptr<const RobotModel> withMatrix(const RealRobot& robot, const std::
     matrix.disabled.push_back({first, second, DisabledReason::Never});
   return load(robot, srdfWith(matrix, *bare, generator, srdf));
 }
-}  // namespace
 
-std::vector<Arm> realArms()
+std::vector<Arm> loadArms()
 {
   std::vector<Arm> arms;
   if (panda().available())
@@ -59,6 +58,13 @@ std::vector<Arm> realArms()
     arms.push_back({"panda_on_base", load(panda(), replaced(planar, "</robot>", group + "</robot>")), "mobile_arm",
                     panda().urdfText(), ""});
   }
+  return arms;
+}
+}  // namespace
+
+const std::vector<Arm>& realArms()
+{
+  static const std::vector<Arm> arms = loadArms();
   return arms;
 }
 }  // namespace gpu_planning_scene::core

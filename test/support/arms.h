@@ -18,6 +18,7 @@ struct Arm
   std::string root;  ///< the link at which the group's chain begins; empty if the base moves too
 };
 
-/// The arms of panda, ur5, kr5 and PR2, and panda on a planar base; those whose files exist.
-std::vector<Arm> realArms();
+/// The arms of panda, ur5, kr5 and PR2, and panda on a planar base; those whose files exist. They are loaded
+/// once per process.
+const std::vector<Arm>& realArms();
 }  // namespace gpu_planning_scene::core

@@ -1,0 +1,258 @@
+#include "gpu_planning_scene/planning/cartesian_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/interpolation.h"
+#include "gpu_planning_scene/inverse_kinematics.h"
+#include "support/arms.h"
+#include "support/seed.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+Eigen::Isometry3d poseOf(const RobotModel& robot, int link, const double* state)
+{
+  std::vector<Eigen::Isometry3d> poses(robot.links().size());
+  robot.linkPoses(state, poses.data());
+  return poses[static_cast<std::size_t>(link)];
+}
+
+/// An arm of realArms() with a random free state and a line from it.
+class Lines : public testing::Test
+{
+ protected:
+  void SetUp() override
+  {
+    arms_ = &realArms();
+    if (arms_->empty())
+      GTEST_SKIP() << "there are no real robots";
+  }
+
+  void use(const Arm& arm)
+  {
+    arm_ = &arm;
+    tip_ = tipOf(*arm.robot, arm.robot->group(arm.group));
+    auto scene = std::make_shared<PlanningScene>(arm.robot);
+    scene->current_state = arm.robot->defaultState();
+    setScene(scene);
+    query_ = CartesianQuery();
+    query_.group = arm.group;
+    query_.link = tip_;
+  }
+
+  void setScene(const std::shared_ptr<const PlanningScene>& scene)
+  {
+    scene_ = scene;
+    checker_ = std::make_shared<CpuChecker>(scene, CheckerOptions());
+  }
+
+  void drawStart()
+  {
+    query_.start.resize(arm_->robot->variables().size());
+    do
+      arm_->robot->randomState(generator_, scene_->current_state.data(), query_.start.data());
+    while (checker_->check(query_.start.data(), 1, arm_->group).valid.front() == 0);
+  }
+
+  Eigen::Isometry3d start() const { return poseOf(*arm_->robot, tip_, query_.start.data()); }
+
+  Eigen::Vector3d randomVector(double length)
+  {
+    std::normal_distribution<double> normal;
+    return length * Eigen::Vector3d(normal(generator_), normal(generator_), normal(generator_)).normalized();
+  }
+
+  /// Calls `look` with states along the path, at ten times the resolution of the default steps.
+  template <class Look>
+  void alongPath(const CartesianPath& path, const Look& look) const
+  {
+    const RobotModel& robot = *arm_->robot;
+    std::vector<double> state(robot.variables().size());
+    for (std::size_t i = 1; i < path.rows.size(); ++i)
+    {
+      const double parts =
+          std::max(10.0, segmentCount(robot, path.rows[i - 1].data(), path.rows[i].data(), {0.002, 0.002}));
+      for (double part = 0.0; part <= parts; ++part)
+      {
+        interpolate(robot, path.rows[i - 1].data(), path.rows[i].data(), part / parts, state.data());
+        look(state);
+      }
+    }
+  }
+
+  std::string refusal() const
+  {
+    try
+    {
+      followLines(scene_, checker_, query_);
+    }
+    catch (const Error& error)
+    {
+      return error.what();
+    }
+    return "";
+  }
+
+  const std::vector<Arm>* arms_ = nullptr;
+  const Arm* arm_ = nullptr;
+  int tip_ = -1;
+  std::mt19937_64 generator_{kSeed};
+  std::shared_ptr<const PlanningScene> scene_;
+  std::shared_ptr<CpuChecker> checker_;
+  CartesianQuery query_;
+};
+
+TEST_F(Lines, AreFollowedWithinTheDeviationAndTheJumpBoundAndWithoutCollision)
+{
+  for (const Arm& arm : *arms_)
+  {
+    use(arm);
+    std::size_t whole = 0;
+    for (int i = 0; i < 40; ++i)
+    {
+      drawStart();
+      Eigen::Isometry3d goal = start();
+      goal.translation() += randomVector(0.15);
+      goal.linear() = Eigen::AngleAxisd(0.2, randomVector(1.0)) * goal.linear();
+      query_.waypoints = {goal};
+      const CartesianPath path = followLines(scene_, checker_, query_);
+      ASSERT_EQ(path.fraction == 1.0, path.message.empty()) << path.message;
+      whole += path.fraction == 1.0 ? 1 : 0;
+      const Eigen::Vector3d direction = (goal.translation() - start().translation()).normalized();
+      alongPath(path,
+                [&](const std::vector<double>& state)
+                {
+                  const Eigen::Isometry3d pose = poseOf(*arm.robot, tip_, state.data());
+                  const Eigen::Vector3d from_start = pose.translation() - start().translation();
+                  const double distance = (from_start - from_start.dot(direction) * direction).norm();
+                  ASSERT_LE(distance, query_.max_deviation) << arm.name;
+                  ASSERT_EQ(1, checker_->check(state.data(), 1, arm.group).valid.front()) << arm.name;
+                });
+      for (std::size_t k = 1; k < path.rows.size(); ++k)
+        for (const JointTravel& travel : jointTravel(*arm.robot, path.rows[k - 1].data(), path.rows[k].data()))
+          ASSERT_LE(std::max(travel.angle, travel.length), query_.max_joint_step) << arm.name;
+      const Eigen::Isometry3d end = poseOf(*arm.robot, tip_, path.rows.back().data());
+      if (path.fraction == 1.0)
+      {
+        ASSERT_LE((end.translation() - goal.translation()).norm(), query_.max_deviation);
+        ASSERT_LE(Eigen::AngleAxisd(end.linear().transpose() * goal.linear()).angle(), query_.max_rotation_deviation);
+      }
+    }
+    EXPECT_GT(whole, 2U) << arm.name;  // many lines leave the reach of an arm soon
+  }
+}
+
+TEST_F(Lines, EndWhereTheReachEnds)
+{
+  use(arms_->front());
+  drawStart();
+  query_.check_collisions = false;
+  query_.waypoints = {start()};
+  query_.waypoints.front().translation() += randomVector(5.0);
+  const CartesianPath path = followLines(scene_, checker_, query_);
+  EXPECT_LT(path.fraction, 0.5);
+  EXPECT_FALSE(path.message.empty());
+  EXPECT_EQ(query_.start, path.rows.front());
+}
+
+TEST_F(Lines, EndAtAnObstacleThatIsNamed)
+{
+  const Arm& arm = arms_->front();
+  use(arm);
+  CartesianPath free_path;
+  do
+  {
+    drawStart();
+    query_.waypoints = {start()};
+    query_.waypoints.front().translation() += randomVector(0.2);
+    free_path = followLines(scene_, checker_, query_);
+  } while (free_path.fraction < 1.0);
+  auto blocked = std::make_shared<PlanningScene>(*scene_);
+  WorldObject box;
+  box.id = "box";
+  box.pose.translation() = query_.waypoints.front().translation();
+  box.shapes.push_back({Box{Eigen::Vector3d::Constant(0.02)}, Eigen::Isometry3d::Identity()});
+  blocked->objects.push_back(box);
+  setScene(blocked);
+  if (checker_->check(query_.start.data(), 1, arm.group).valid.front() == 0)
+    GTEST_SKIP() << "the box touches the start";
+  const CartesianPath path = followLines(scene_, checker_, query_);
+  EXPECT_LT(path.fraction, 1.0);
+  EXPECT_NE(std::string::npos, path.message.find("box")) << path.message;
+  query_.check_collisions = false;
+  EXPECT_EQ(1.0, followLines(scene_, checker_, query_).fraction);
+}
+
+TEST_F(Lines, PassSeveralWaypoints)
+{
+  use(arms_->front());
+  CartesianPath path;
+  do
+  {
+    drawStart();
+    Eigen::Isometry3d first = start();
+    first.translation().z() += 0.05;
+    Eigen::Isometry3d second = first;
+    second.translation().x() += 0.05;
+    query_.waypoints = {first, second, start()};
+    path = followLines(scene_, checker_, query_);
+  } while (path.fraction < 1.0);
+  for (const Eigen::Isometry3d& waypoint : query_.waypoints)
+  {
+    double least = 1.0;
+    for (const std::vector<double>& row : path.rows)
+      least = std::min(least, (poseOf(*arm_->robot, tip_, row.data()).translation() - waypoint.translation()).norm());
+    EXPECT_LE(least, 1e-5);
+  }
+}
+
+TEST_F(Lines, EndWherePathConstraintsEnd)
+{
+  use(arms_->front());
+  CartesianPath path;
+  do
+  {
+    drawStart();
+    query_.waypoints = {start()};
+    query_.waypoints.front().translation().z() += 0.1;
+    path = followLines(scene_, checker_, query_);
+  } while (path.fraction < 1.0);
+  PositionConstraint below;
+  below.link = tip_;
+  below.pose.translation() = start().translation();
+  below.region = Sphere{0.05};
+  query_.path_constraints.positions.push_back(below);
+  path = followLines(scene_, checker_, query_);
+  EXPECT_NEAR(0.5, path.fraction, 0.11);
+  EXPECT_NE(std::string::npos, path.message.find("path constraints")) << path.message;
+}
+
+TEST_F(Lines, WithWrongInputAreRefusedInOneLine)
+{
+  use(arms_->front());
+  drawStart();
+  EXPECT_EQ("there is no waypoint; give at least one", refusal());
+  query_.waypoints = {start()};
+  query_.max_step = 0.0;
+  EXPECT_EQ("the largest step is 0; it must be above 0", refusal());
+  query_.max_step = 0.01;
+  query_.waypoints.front().linear() *= 2.0;
+  EXPECT_EQ(0U, refusal().find("waypoint 0")) << refusal();
+  query_.waypoints = {start()};
+  query_.start.pop_back();
+  EXPECT_NE(std::string::npos, refusal().find("the start has")) << refusal();
+  drawStart();
+  query_.start[static_cast<std::size_t>(arm_->robot->group(arm_->group).variables.front())] = 100.0;
+  EXPECT_NE(std::string::npos, refusal().find("the start is out of bounds")) << refusal();
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,184 @@
+#include "gpu_planning_scene/planning/path_constraints.h"
+
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/interpolation.h"
+#include "support/arms.h"
+#include "support/seed.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// A kind of constraints around the pose that a link has in a state.
+struct Kind
+{
+  std::string name;
+  KinematicConstraints (*around)(int link, const Eigen::Isometry3d& pose, double size);
+};
+
+KinematicConstraints sphere(int link, const Eigen::Isometry3d& pose, double size)
+{
+  KinematicConstraints constraints;
+  constraints.positions.push_back({link, {0.05, 0.02, 0.1}, pose, Sphere{size}});
+  constraints.positions.back().pose.translation() = pose * Eigen::Vector3d(0.05, 0.02, 0.1);
+  return constraints;
+}
+
+KinematicConstraints box(int link, const Eigen::Isometry3d& pose, double size)
+{
+  KinematicConstraints constraints;
+  constraints.positions.push_back({link, Eigen::Vector3d::Zero(), pose, Box{{size, 2.0 * size, 5.0}}});
+  return constraints;
+}
+
+KinematicConstraints orientation(int link, const Eigen::Isometry3d& pose, double size,
+                                 OrientationConstraint::Parameterization parameterization)
+{
+  KinematicConstraints constraints;
+  constraints.orientations.push_back(
+      {link, Eigen::Matrix3d::Identity(), pose.linear(), {size, 1.5 * size, 4.0}, parameterization});
+  return constraints;
+}
+
+KinematicConstraints eulerAngles(int link, const Eigen::Isometry3d& pose, double size)
+{
+  return orientation(link, pose, size, OrientationConstraint::Parameterization::XyzEulerAngles);
+}
+
+KinematicConstraints rotationVector(int link, const Eigen::Isometry3d& pose, double size)
+{
+  return orientation(link, pose, size, OrientationConstraint::Parameterization::RotationVector);
+}
+
+class PathConstraintsOfArms : public testing::TestWithParam<Kind>
+{
+};
+
+TEST_P(PathConstraintsOfArms, AreNeverProvenForAMotionThatViolatesThem)
+{
+  constexpr int kMotions = 300;
+  constexpr int kSamples = 400;
+  const std::vector<Arm>& arms = realArms();
+  if (arms.empty())
+    GTEST_SKIP() << "there are no real robots";
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937_64 generator(kSeed);
+  std::uniform_real_distribution<double> part(0.0, 1.0);
+  std::size_t proven = 0;
+  std::size_t refused = 0;
+  for (const Arm& arm : arms)
+  {
+    const RobotModel& robot = *arm.robot;
+    const int tip = tipOf(robot, robot.group(arm.group));
+    std::vector<Eigen::Isometry3d> poses(robot.links().size());
+    std::vector<double> from(robot.variables().size());
+    std::vector<double> state(from.size());
+    for (int i = 0; i < kMotions; ++i)
+    {
+      robot.randomState(generator, robot.defaultState().data(), from.data());
+      std::vector<double> to = from;
+      const double reach = 0.5 * part(generator) * part(generator);
+      for (const int variable : robot.group(arm.group).variables)
+        to[static_cast<std::size_t>(variable)] += reach * (2.0 * part(generator) - 1.0);
+      robot.linkPoses(from.data(), poses.data());
+      const PathConstraints constraints(
+          arm.robot, arm.group,
+          GetParam().around(tip, poses[static_cast<std::size_t>(tip)], 0.02 + 0.4 * part(generator)));
+      if (!constraints.holdAlong(from.data(), to.data()))
+      {
+        ++refused;
+        continue;
+      }
+      ++proven;
+      for (int k = 0; k <= kSamples; ++k)
+      {
+        interpolate(robot, from.data(), to.data(), static_cast<double>(k) / kSamples, state.data());
+        ASSERT_LE(constraints.violation(state.data()).sum(), 1e-12) << arm.name << ", motion " << i << ", sample " << k;
+      }
+    }
+  }
+  EXPECT_GT(proven, 20U);
+  EXPECT_GT(refused, 20U);
+}
+
+TEST_P(PathConstraintsOfArms, AreProvenForShortMotionsWithinThem)
+{
+  const std::vector<Arm>& arms = realArms();
+  if (arms.empty())
+    GTEST_SKIP() << "there are no real robots";
+  for (const Arm& arm : arms)
+  {
+    const RobotModel& robot = *arm.robot;
+    const int tip = tipOf(robot, robot.group(arm.group));
+    std::vector<Eigen::Isometry3d> poses(robot.links().size());
+    const std::vector<double> from = robot.defaultState();
+    std::vector<double> to = from;
+    const std::vector<int>& variables = robot.group(arm.group).variables;
+    to[static_cast<std::size_t>(variables.front())] += 0.01;
+    robot.linkPoses(from.data(), poses.data());
+    const PathConstraints constraints(arm.robot, arm.group,
+                                      GetParam().around(tip, poses[static_cast<std::size_t>(tip)], 0.2));
+    EXPECT_TRUE(constraints.holdAlong(from.data(), to.data())) << arm.name;
+  }
+}
+
+TEST_P(PathConstraintsOfArms, AreReachedByProjection)
+{
+  const std::vector<Arm>& arms = realArms();
+  if (arms.empty())
+    GTEST_SKIP() << "there are no real robots";
+  std::mt19937_64 generator(kSeed);
+  for (const Arm& arm : arms)
+  {
+    const RobotModel& robot = *arm.robot;
+    const int tip = tipOf(robot, robot.group(arm.group));
+    std::vector<Eigen::Isometry3d> poses(robot.links().size());
+    std::vector<double> state(robot.variables().size());
+    std::size_t reached = 0;
+    constexpr std::size_t kStates = 50;
+    for (std::size_t i = 0; i < kStates; ++i)
+    {
+      robot.randomState(generator, robot.defaultState().data(), state.data());
+      robot.linkPoses(state.data(), poses.data());
+      const PathConstraints constraints(arm.robot, arm.group,
+                                        GetParam().around(tip, poses[static_cast<std::size_t>(tip)], 0.1));
+      for (const int variable : robot.group(arm.group).variables)
+        state[static_cast<std::size_t>(variable)] += i % 2 == 0 ? 0.1 : -0.1;
+      if (!constraints.project(state.data()))
+        continue;
+      ++reached;
+      EXPECT_TRUE(constraints.violation(state.data()).isNone()) << arm.name;
+    }
+    EXPECT_GT(reached, kStates / 2) << arm.name;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, PathConstraintsOfArms,
+                         testing::Values(Kind{"sphere", sphere}, Kind{"box", box}, Kind{"euler", eulerAngles},
+                                         Kind{"rotation_vector", rotationVector}),
+                         [](const auto& kind) { return kind.param.name; });
+
+TEST(PathConstraints, OfJointsCountWholeTurnsOfContinuousJointsOnce)
+{
+  const std::string urdf =
+      "<robot name='r'><link name='a'/><link name='b'/><joint name='turn' type='continuous'><parent link='a'/>"
+      "<child link='b'/><axis xyz='0 0 1'/></joint></robot>";
+  const auto robot = RobotModel::fromXml(urdf, "<robot name='r'><group name='g'><joint name='turn'/></group></robot>",
+                                         RobotModelOptions());
+  KinematicConstraints constraints;
+  constraints.addJoint(*robot, 0, 3.0, 3.3);
+  const PathConstraints path(robot, "g", constraints);
+  const double within = -M_PI + 0.1;
+  const double other = M_PI - 0.05;
+  const double outside = 0.0;
+  EXPECT_TRUE(path.holdAlong(&within, &other));
+  EXPECT_FALSE(path.holdAlong(&within, &outside));
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core
