@@ -16,6 +16,8 @@ namespace gpu_planning_scene::pipeline
 constexpr char kArm[] = "panda_arm";
 inline const std::set<std::string> kHandLinks = {"panda_hand", "panda_leftfinger", "panda_rightfinger"};
 
+inline const bool kPluginsAreFound = (useBuiltPlugins(), true);
+
 /// MoveIt's panda with this package's planner. Paths are checked with MoveIt's FCL detector.
 class Planner : public testing::Test
 {
