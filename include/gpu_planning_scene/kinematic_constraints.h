@@ -25,11 +25,13 @@ struct PositionConstraint
 struct OrientationConstraint
 {
   /// The three numbers that are compared with the tolerances. They describe the rotation from the wanted orientation
-  /// to the frame, about the axes of the wanted orientation.
+  /// to the frame.
   enum class Parameterization
   {
-    XyzEulerAngles,  ///< intrinsic angles about x, y, z: the tilt of the z axis is limited by the first two alone
-    RotationVector   ///< axis times angle
+    /// Intrinsic angles about the x, y, z axes of the wanted orientation. The first two limit the tilt of the z axis.
+    XyzEulerAngles,
+    /// Axis times angle, as a vector along `axes`.
+    RotationVector
   };
 
   int link = -1;
@@ -37,6 +39,7 @@ struct OrientationConstraint
   Eigen::Matrix3d wanted = Eigen::Matrix3d::Identity();  ///< of the constrained frame, in the planning frame
   Eigen::Vector3d tolerance = Eigen::Vector3d::Zero();   ///< radians, above 0; pi: any angle
   Parameterization parameterization = Parameterization::XyzEulerAngles;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< only for RotationVector: a rotation, in the planning frame
 };
 
 /// The values of a variable are within a range.

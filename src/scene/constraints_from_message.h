@@ -97,8 +97,8 @@ OrientationConstraint orientationFrom(const Message& message, const ConstraintFr
   OrientationConstraint constraint;
   constraint.link = frame.link;
   constraint.frame = frame.pose.linear();
-  constraint.wanted =
-      poseOf(message.header, frames).linear() * rotationOf(message.orientation, where).toRotationMatrix();
+  constraint.axes = poseOf(message.header, frames).linear();
+  constraint.wanted = constraint.axes * rotationOf(message.orientation, where).toRotationMatrix();
   constraint.tolerance = {message.absolute_x_axis_tolerance, message.absolute_y_axis_tolerance,
                           message.absolute_z_axis_tolerance};
   if constexpr (kHasParameterization<Message>)

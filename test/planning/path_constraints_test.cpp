@@ -42,7 +42,7 @@ KinematicConstraints orientation(int link, const Eigen::Isometry3d& pose, double
 {
   KinematicConstraints constraints;
   constraints.orientations.push_back(
-      {link, Eigen::Matrix3d::Identity(), pose.linear(), {size, 1.5 * size, 4.0}, parameterization});
+      {link, Eigen::Matrix3d::Identity(), pose.linear(), {size, 1.5 * size, 4.0}, parameterization, pose.linear()});
   return constraints;
 }
 

@@ -88,6 +88,7 @@ OrientationValues orientationValues(const OrientationConstraint& constraint, con
   }
   const Eigen::AngleAxisd turn(rotation);
   const Eigen::Vector3d vector = turn.angle() * turn.axis();
-  return {vector, rotationVectorRates(vector) * to_wanted};
+  const Eigen::Matrix3d to_axes = constraint.axes.transpose() * constraint.wanted;
+  return {to_axes * vector, to_axes * rotationVectorRates(vector) * to_wanted};
 }
 }  // namespace gpu_planning_scene::core

@@ -43,7 +43,7 @@ void validatePosition(const PositionConstraint& constraint, const RobotModel& ro
 void validateOrientation(const OrientationConstraint& constraint, const RobotModel& robot, const std::string& where)
 {
   const std::string of = where + ": the orientation of link '" + linkName(robot, constraint.link, where) + "'";
-  for (const Eigen::Matrix3d& rotation : {constraint.frame, constraint.wanted})
+  for (const Eigen::Matrix3d& rotation : {constraint.frame, constraint.wanted, constraint.axes})
   {
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.linear() = rotation;
