@@ -14,7 +14,9 @@ void addSceneReport(pybind11::module_& module);
 void addStateChecker(pybind11::module_& module);
 void addMotionChecker(pybind11::module_& module);
 void addStateInspector(pybind11::module_& module);
+void addKinematicConstraints(pybind11::module_& module);
 void addPlanning(pybind11::module_& module);
+void addCartesianPath(pybind11::module_& module);
 void addPathTiming(pybind11::module_& module);
 void addRender(pybind11::module_& module);
 }  // namespace gpu_planning_scene::python

@@ -55,7 +55,9 @@ PYBIND11_MODULE(_core, module)
   addStateChecker(module);
   addMotionChecker(module);
   addStateInspector(module);
+  addKinematicConstraints(module);
   addPlanning(module);
+  addCartesianPath(module);
   addPathTiming(module);
   addRender(module);
 }

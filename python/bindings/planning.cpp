@@ -14,6 +14,7 @@
 #include "bindings/arguments.h"
 #include "bindings/bindings.h"
 #include "bindings/interrupt.h"
+#include "bindings/kinematic_constraints.h"
 #include "bindings/motion_checker.h"
 #include "bindings/named_rows.h"
 #include "bindings/state_checker.h"
@@ -107,7 +108,8 @@ PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>
                           const py::object& goals, Arg<double> seconds, Arg<bool> simplify,
                           const Arg<std::string>& rule, Arg<double> resolution, Arg<double> translation_resolution,
                           Arg<std::size_t> max_samples, const py::object& parameters, const py::object& seed,
-                          const py::object& workspace, Arg<double> optimize)
+                          const py::object& workspace, Arg<double> optimize, const py::object& goal_constraints,
+                          const py::object& path_constraints)
 {
   const auto scene = checker.value->scene();
   PlanningQuery query;
@@ -119,7 +121,11 @@ PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>
   query.parameters = parametersFrom(parameters);
   query.seed = seedFrom(seed);
   query.workspace = workspaceFrom(workspace);
-  query.goals = goalsFrom(goals, query, scene->robot);
+  if (!goals.is_none())
+    query.goals = goalsFrom(goals, query, scene->robot);
+  query.goal_regions = constraintsFrom(goal_constraints, *scene, "goal_constraints");
+  for (const core::KinematicConstraints& constraints : constraintsFrom(path_constraints, *scene, "path_constraints"))
+    query.path_constraints.append(constraints);
   query.optimize_seconds = optimize.value;
   // The planner itself refuses values of the group beyond the limits.
   if (const std::string outside =
@@ -159,7 +165,11 @@ void addPlanning(py::module_& module)
       .value("NO_SOLUTION", PlanningStatus::NoSolution)
       .value("START_IN_COLLISION", PlanningStatus::StartInCollision)
       .value("GOAL_IN_COLLISION", PlanningStatus::GoalInCollision)
-      .value("OUT_OF_BOUNDS", PlanningStatus::OutOfBounds);
+      .value("OUT_OF_BOUNDS", PlanningStatus::OutOfBounds)
+      .value("GOAL_UNREACHABLE", PlanningStatus::GoalUnreachable,
+             "Inverse kinematics found no state that fulfils goal_constraints.")
+      .value("START_VIOLATES_CONSTRAINTS", PlanningStatus::StartViolatesConstraints)
+      .value("GOAL_VIOLATES_CONSTRAINTS", PlanningStatus::GoalViolatesConstraints);
   py::class_<PlanningResult>(module, "PlanningResult", "The answer of plan_motion.")
       .def_readonly("status", &PlanningResult::status)
       .def_readonly("message", &PlanningResult::message, "The fault, in one line; empty if the status is SOLVED.")
@@ -174,11 +184,12 @@ void addPlanning(py::module_& module)
       .def_readonly("states_checked", &PlanningResult::states_checked)
       .def_readonly("revision", &PlanningResult::revision, "PlanningScene.revision of the checked scene.");
   module.def(
-      "plan_motion", &planMotion, py::arg("checker"), py::arg("group"), py::arg("start"), py::arg("goals"),
+      "plan_motion", &planMotion, py::arg("checker"), py::arg("group"), py::arg("start"), py::arg("goals") = py::none(),
       py::arg("seconds") = PlanningQuery().seconds, py::arg("simplify") = true, py::arg("rule") = "bound",
       py::arg("resolution") = motions.steps.revolute, py::arg("translation_resolution") = motions.steps.prismatic,
       py::arg("max_samples") = motions.max_samples, py::arg("parameters") = py::none(), py::arg("seed") = py::none(),
-      py::arg("workspace") = py::none(), py::arg("optimize") = 0.0,
+      py::arg("workspace") = py::none(), py::arg("optimize") = 0.0, py::arg("goal_constraints") = py::none(),
+      py::arg("path_constraints") = py::none(),
       "Plans a motion of a planning group in the scene of a StateChecker, with the planner BatchRrtConnect.\n\n"
       "start: shape (variables,). goals: shape (n, variables) or (variables,); the motion may end at any of "
       "them. Both can be names of states of the SRDF: variables that the start does not set have their values from the "
@@ -193,7 +204,9 @@ void addPlanning(py::module_& module)
       "Calls with a seed run one after the other. workspace: a pair of corners (xyz, xyz), the range in metres in "
       "which "
       "planar and floating joints of the group are planned for; None: that of unbounded_translation. "
-      "optimize: seconds in which the path is made shorter after simplification.\n\nReturns a "
+      "optimize: seconds in which the path is made shorter after simplification. goal_constraints: a "
+      "KinematicConstraints, or a list of them: the motion may also end in any state that fulfils one of them, for "
+      "example at a pose. path_constraints: the whole motion fulfils them.\n\nReturns a "
       "PlanningResult: a motion that "
       "is not found is not an exception. Raises Error for an unknown group or parameter, for other shapes, for "
       "values that are not finite, and for a goal that moves a variable outside the group, or is a named state "
