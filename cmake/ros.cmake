@@ -38,6 +38,8 @@ add_service_files(FILES
   CheckStates.srv
   CheckTrajectory.srv
   Clear.srv
+  ComputeFk.srv
+  ComputeIk.srv
   GetPlanningScene.srv
   GetReport.srv
   PlanMotion.srv

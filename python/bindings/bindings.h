@@ -15,5 +15,6 @@ void addStateChecker(pybind11::module_& module);
 void addMotionChecker(pybind11::module_& module);
 void addStateInspector(pybind11::module_& module);
 void addPlanning(pybind11::module_& module);
+void addInverseKinematics(pybind11::module_& module);
 void addRender(pybind11::module_& module);
 }  // namespace gpu_planning_scene::python

@@ -56,5 +56,6 @@ PYBIND11_MODULE(_core, module)
   addMotionChecker(module);
   addStateInspector(module);
   addPlanning(module);
+  addInverseKinematics(module);
   addRender(module);
 }

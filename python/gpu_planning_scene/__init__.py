@@ -20,6 +20,8 @@ __all__ = [
     "Error",
     "Group",
     "HalfSpace",
+    "IkResult",
+    "IkStatus",
     "Joint",
     "JointType",
     "Link",
@@ -43,6 +45,7 @@ __all__ = [
     "plan_motion",
     "render",
     "resolve_uri",
+    "solve_ik",
 ]
 
 

@@ -410,6 +410,30 @@ def plan_motion(checker: StateChecker, group: str, start: npt.ArrayLike, goals: 
                 max_samples: int = ..., parameters: Optional[Mapping[str, Any]] = ...,
                 seed: Optional[int] = ...,
                 workspace: Optional[tuple[npt.ArrayLike, npt.ArrayLike]] = ..., optimize: float = ...) -> PlanningResult: ...
+
+class IkStatus:
+    SOLVED: IkStatus
+    NO_SOLUTION: IkStatus
+    IN_COLLISION: IkStatus
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class IkResult:
+    @property
+    def status(self) -> IkStatus: ...
+    @property
+    def message(self) -> str: ...
+    @property
+    def states(self) -> Floats: ...
+    @property
+    def distances(self) -> Floats: ...
+
+def solve_ik(checker: StateChecker, group: str, poses: npt.ArrayLike, seed_state: Optional[npt.ArrayLike] = ...,
+             frame: Optional[str] = ..., position_tolerance: float = ..., orientation_tolerance: float = ...,
+             max_solutions: int = ..., max_attempts: int = ..., check_collisions: bool = ...,
+             seed: int = ...) -> Union[IkResult, list[IkResult]]: ...
 def render(scene: PlanningScene, state: Optional[npt.ArrayLike] = ..., width: int = ..., height: int = ...,
            eye: Optional[npt.ArrayLike] = ..., target: Optional[npt.ArrayLike] = ..., up: npt.ArrayLike = ...,
            device: str = ...) -> npt.NDArray[np.uint8]: ...

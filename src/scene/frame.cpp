@@ -8,13 +8,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-Eigen::Isometry3d poseOf(const KnownFrames& known, const ObjectFrame& object, const double* state)
-{
-  return object.link < 0 ? *object.pose : linkPose(known.robot, object.link, state) * *object.pose;
-}
-
 /// OBJECT/SUBFRAME; both names may contain slashes.
-std::optional<Eigen::Isometry3d> findSubframe(const KnownFrames& known, const std::string& name, const double* state)
+std::optional<LocatedFrame> locateSubframe(const KnownFrames& known, const std::string& name)
 {
   for (std::size_t slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1))
   {
@@ -23,23 +18,46 @@ std::optional<Eigen::Isometry3d> findSubframe(const KnownFrames& known, const st
       continue;
     const auto subframe = object->subframes->find(name.substr(slash + 1));
     if (subframe != object->subframes->end())
-      return poseOf(known, *object, state) * subframe->second;
+      return LocatedFrame{object->link, *object->pose, subframe->second};
   }
   return std::nullopt;
 }
 
-std::optional<Eigen::Isometry3d> findAsWritten(const KnownFrames& known, const std::string& name, const double* state)
+std::optional<LocatedFrame> locateAsWritten(const KnownFrames& known, const std::string& name)
 {
   if (name.empty() || name == known.robot.planningFrame())
-    return Eigen::Isometry3d::Identity();
+    return LocatedFrame{};
   if (const int link = known.robot.linkIndex(name); link >= 0)
-    return linkPose(known.robot, link, state);
+    return LocatedFrame{link};
   if (const std::optional<ObjectFrame> object = known.object(name))
-    return poseOf(known, *object, state);
-  if (auto pose = findSubframe(known, name, state))
-    return pose;
+    return LocatedFrame{object->link, *object->pose};
+  if (auto subframe = locateSubframe(known, name))
+    return subframe;
   const auto fixed = known.fixed_frames.find(name);
-  return fixed == known.fixed_frames.end() ? std::nullopt : std::make_optional(fixed->second);
+  return fixed == known.fixed_frames.end() ? std::nullopt : std::make_optional(LocatedFrame{-1, fixed->second});
+}
+
+/// Old tf1 names begin with a slash, and so do the links of some robots. So the name is tried as written, then without
+/// the slash.
+std::optional<LocatedFrame> locate(const KnownFrames& known, const std::string& name)
+{
+  const auto located = locateAsWritten(known, name);
+  return located || name.empty() || name[0] != '/' ? located : locateAsWritten(known, name.substr(1));
+}
+
+KnownFrames framesOf(const PlanningScene& scene)
+{
+  const auto find_object = [&scene](const std::string& id) -> std::optional<ObjectFrame>
+  {
+    for (const AttachedObject& object : scene.attached)
+      if (object.object.id == id)
+        return ObjectFrame{&object.object.pose, &object.object.subframes, object.link};
+    for (const WorldObject& object : scene.objects)
+      if (object.id == id)
+        return ObjectFrame{&object.pose, &object.subframes};
+    return std::nullopt;
+  };
+  return {*scene.robot, scene.fixed_frames, find_object};
 }
 }  // namespace
 
@@ -91,12 +109,19 @@ std::optional<std::string> fixedFrameName(const std::string& frame_id, const std
   return std::nullopt;
 }
 
-/// Old tf1 names begin with a slash, and so do the links of some robots. So the name is tried as written, then without
-/// the slash.
 std::optional<Eigen::Isometry3d> findFrame(const KnownFrames& known, const std::string& name, const double* state)
 {
-  const auto pose = findAsWritten(known, name, state);
-  return pose || name.empty() || name[0] != '/' ? pose : findAsWritten(known, name.substr(1), state);
+  const std::optional<LocatedFrame> located = locate(known, name);
+  if (!located)
+    return std::nullopt;
+  if (located->link < 0)
+    return located->object * located->subframe;
+  return linkPose(known.robot, located->link, state) * located->object * located->subframe;
+}
+
+std::optional<LocatedFrame> locateFrame(const PlanningScene& scene, const std::string& name)
+{
+  return locate(framesOf(scene), name);
 }
 
 std::vector<std::string> frameNames(const PlanningScene& scene)
@@ -121,16 +146,6 @@ std::vector<std::string> frameNames(const PlanningScene& scene)
 
 std::optional<Eigen::Isometry3d> PlanningScene::frame(const std::string& frame_name, const double* state) const
 {
-  const auto find_object = [this](const std::string& id) -> std::optional<ObjectFrame>
-  {
-    for (const AttachedObject& object : attached)
-      if (object.object.id == id)
-        return ObjectFrame{&object.object.pose, &object.object.subframes, object.link};
-    for (const WorldObject& object : objects)
-      if (object.id == id)
-        return ObjectFrame{&object.pose, &object.subframes};
-    return std::nullopt;
-  };
-  return findFrame({*robot, fixed_frames, find_object}, frame_name, state);
+  return findFrame(framesOf(*this), frame_name, state);
 }
 }  // namespace gpu_planning_scene::core

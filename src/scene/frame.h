@@ -31,6 +31,17 @@ struct KnownFrames
   std::function<std::optional<ObjectFrame>(const std::string& id)> object;
 };
 
+/// Where a frame is: in the frame of a link, or in the planning frame (link -1).
+struct LocatedFrame
+{
+  int link = -1;
+  Eigen::Isometry3d object = Eigen::Isometry3d::Identity();    ///< of the object (or fixed frame), in the frame above
+  Eigen::Isometry3d subframe = Eigen::Isometry3d::Identity();  ///< in the object's frame
+};
+
+/// Looks up a name as PlanningScene::frame. It needs no robot state. No value: the scene has no frame of this name.
+std::optional<LocatedFrame> locateFrame(const PlanningScene& scene, const std::string& name);
+
 /// A name of tf1 begins with a slash.
 std::string withoutLeadingSlash(const std::string& frame);
 

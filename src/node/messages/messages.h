@@ -9,6 +9,8 @@
 #include <gpu_planning_scene/CheckStates.h>
 #include <gpu_planning_scene/CheckTrajectory.h>
 #include <gpu_planning_scene/Clear.h>
+#include <gpu_planning_scene/ComputeFk.h>
+#include <gpu_planning_scene/ComputeIk.h>
 #include <gpu_planning_scene/ContactInformation.h>
 #include <gpu_planning_scene/GetPlanningScene.h>
 #include <gpu_planning_scene/GetReport.h>
