@@ -43,6 +43,9 @@ add_service_files(FILES
   CheckStates.srv
   CheckTrajectory.srv
   Clear.srv
+  ComputeCartesianPath.srv
+  ComputeFk.srv
+  ComputeIk.srv
   GetPlanningScene.srv
   GetReport.srv
   PlanMotion.srv

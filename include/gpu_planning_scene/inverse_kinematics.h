@@ -50,8 +50,8 @@ int tipOf(const RobotModel& robot, const Group& group);
 class InverseKinematics
 {
  public:
-  /// Throws Error if the group is unknown, if the constraints are not valid (KinematicConstraints::validate), or if no
-  /// variable of the group moves one of their links.
+  /// Throws Error if the group is unknown, if the constraints are not valid (KinematicConstraints::validate), if no
+  /// variable of the group moves one of their links, or if a range is of a variable outside the group.
   InverseKinematics(std::shared_ptr<const RobotModel> robot, const std::string& group,
                     KinematicConstraints constraints);
   ~InverseKinematics();

@@ -42,7 +42,7 @@ struct OrientationConstraint
   Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< only for RotationVector: a rotation, in the planning frame
 };
 
-/// The values of a variable are within a range.
+/// The values of a variable are within a range. The variable must not be a component of a quaternion.
 struct JointConstraint
 {
   int variable = -1;
@@ -68,7 +68,7 @@ struct KinematicConstraints
 
   /// A frame of a link has a pose. `frame`: in the link's frame. `pose`: in the planning frame. The distance of the
   /// origins is at most `position_tolerance` (metres); the angle between the orientations is at most
-  /// `orientation_tolerance` (radians).
+  /// `orientation_tolerance` (radians; pi or more: any orientation). Both are at least 1e-9.
   static KinematicConstraints pose(int link, const Eigen::Isometry3d& frame, const Eigen::Isometry3d& pose,
                                    double position_tolerance, double orientation_tolerance);
 
@@ -82,8 +82,8 @@ struct KinematicConstraints
   std::vector<int> links() const;
 
   /// Throws Error that begins with `where` if a link or variable is unknown, if a number is not finite, a tolerance is
-  /// not above 1e-9, an orientation is not a rotation, or if a range is empty, outside the limits of its variable, or
-  /// contradicts another range of it.
+  /// below 1e-9 m or 5e-10 rad, an orientation is not a rotation, or if a range is empty, outside the limits of its
+  /// variable, that of a quaternion's component, or contradicts another range of it.
   void validate(const RobotModel& robot, const std::string& where) const;
 };
 

@@ -18,5 +18,6 @@ void addKinematicConstraints(pybind11::module_& module);
 void addPlanning(pybind11::module_& module);
 void addCartesianPath(pybind11::module_& module);
 void addPathTiming(pybind11::module_& module);
+void addInverseKinematics(pybind11::module_& module);
 void addRender(pybind11::module_& module);
 }  // namespace gpu_planning_scene::python

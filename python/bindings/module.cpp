@@ -59,5 +59,6 @@ PYBIND11_MODULE(_core, module)
   addPlanning(module);
   addCartesianPath(module);
   addPathTiming(module);
+  addInverseKinematics(module);
   addRender(module);
 }

@@ -21,6 +21,8 @@ __all__ = [
     "Error",
     "Group",
     "HalfSpace",
+    "IkResult",
+    "IkStatus",
     "Joint",
     "JointType",
     "KinematicConstraints",
@@ -47,6 +49,7 @@ __all__ = [
     "plan_motion",
     "render",
     "resolve_uri",
+    "solve_ik",
     "time_path",
 ]
 

@@ -450,6 +450,7 @@ def plan_motion(checker: StateChecker, group: str, start: npt.ArrayLike, goals: 
                 goal_constraints: Optional[Union[KinematicConstraints, Sequence[KinematicConstraints]]] = ...,
                 path_constraints: Optional[Union[KinematicConstraints, Sequence[KinematicConstraints]]] = ...
                 ) -> PlanningResult: ...
+
 class TimedPath:
     @property
     def times(self) -> Floats: ...
@@ -475,6 +476,31 @@ class TimedPath:
 def time_path(checker: StateChecker, group: str, waypoints: npt.ArrayLike, max_velocity_scaling_factor: float = ...,
               max_acceleration_scaling_factor: float = ..., max_deviation: float = ..., rule: str = ...,
               resolution: float = ..., translation_resolution: float = ..., max_samples: int = ...) -> TimedPath: ...
+
+class IkStatus:
+    SOLVED: IkStatus
+    NO_SOLUTION: IkStatus
+    IN_COLLISION: IkStatus
+    @property
+    def name(self) -> str: ...
+    @property
+    def value(self) -> int: ...
+
+class IkResult:
+    @property
+    def status(self) -> IkStatus: ...
+    @property
+    def message(self) -> str: ...
+    @property
+    def states(self) -> Floats: ...
+    @property
+    def distances(self) -> Floats: ...
+
+def solve_ik(checker: StateChecker, group: str, poses: npt.ArrayLike, seed_state: Optional[npt.ArrayLike] = ...,
+             frame: Optional[str] = ..., position_tolerance: float = ..., orientation_tolerance: float = ...,
+             max_solutions: int = ..., max_attempts: int = ..., check_collisions: bool = ...,
+             seed: int = ...) -> Union[IkResult, list[IkResult]]: ...
+
 def render(scene: PlanningScene, state: Optional[npt.ArrayLike] = ..., width: int = ..., height: int = ...,
            eye: Optional[npt.ArrayLike] = ..., target: Optional[npt.ArrayLike] = ..., up: npt.ArrayLike = ...,
            device: str = ...) -> npt.NDArray[np.uint8]: ...

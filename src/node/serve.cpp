@@ -12,6 +12,7 @@
 #include "node/endpoints/endpoints.h"
 #include "node/follow/follow_options.h"
 #include "node/follow/leader_scene.h"
+#include "node/kinematics/kinematics_services.h"
 #include "node/markers/marker_publisher.h"
 #include "node/moveit/moveit_interface.h"
 #include "node/parameters/node_parameters.h"
@@ -50,6 +51,10 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   const ResilientOptions resilience = resilienceFromParameters(own);
   const SceneLimits limits = sceneLimitsFromParameters(own);
   const PlanServiceOptions plan_options = planOptionsFromParameters(own);
+  KinematicsOptions kinematics_options = kinematicsOptionsFromParameters(own);
+  kinematics_options.max_inspected_states = options.max_inspected_states;
+  kinematics_options.max_poses = server_options.max_states;
+  kinematics_options.motions = plan_options.motions;
   const FollowOptions follow_options = followOptionsFromParameters(node, own);
   setMessageLimit(options.message_size);
 
@@ -87,6 +92,10 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   PathPublisher paths(own, options.marker_rate, options.marker_triangles);
   PlanService plans(own, store, look_up, make_cpu_checker, memory, paths, plan_options);
   plans.prepare();
+  KinematicsServices kinematics(
+      store, look_up, make_cpu_checker,
+      [&checks](const std::shared_ptr<const PlanningScene>& of) { return checks.inspectorOf(of); }, memory,
+      kinematics_options);
   SceneServices changes(store, look_up, memory, setup);
   CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);
   MarkerPublisher markers(own, store, options.marker_rate, options.marker_triangles);
@@ -129,6 +138,16 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   Endpoints plan_requests(node, own, plan_options.at_once + plan_options.max_waiting + 1, diagnostics, scene_fault);
   plan_requests.advertise<PlanMotion>("plan", [&](const PlanMotion::Request& r) { return plans.plan(r); });
 
+  Endpoints kinematics_requests(node, own, KinematicsServices::kSearchingRequests + kinematics_options.max_waiting + 2,
+                                diagnostics, scene_fault);
+  kinematics_requests.advertise<ComputeIk>(
+      "compute_ik", [&](const ComputeIk::Request& r) { return kinematics.computeIk(r); });
+  kinematics_requests.advertise<ComputeCartesianPath>(
+      "compute_cartesian_path",
+      [&](const ComputeCartesianPath::Request& r) { return kinematics.computeCartesianPath(r); });
+  kinematics_requests.advertise<ComputeFk>("compute_fk",
+                                           [&](const ComputeFk::Request& r) { return kinematics.computeFk(r); });
+
   // Each waiting request occupies a thread, and a thread must be free to answer "busy" immediately. Up to
   // max_waiting_requests requests each can be in the two running batches of small requests, in their queue, in the
   // queue of large requests, in the queue for contacts, and waiting for a revision. check_states is advertised last:
@@ -155,14 +174,15 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   // that send the answers are joined.
   stopping = true;
   deadline.emplace(kLongestEnd);
-  const std::array<Endpoints*, 6> endpoints = {
-      {&state_topics, &cloud_topics, &change_requests, &scene_requests, &plan_requests, &check_requests}};
+  const std::array<Endpoints*, 7> endpoints = {{&state_topics, &cloud_topics, &change_requests, &scene_requests,
+                                                &plan_requests, &kinematics_requests, &check_requests}};
   for (Endpoints* some : endpoints)
     some->close();
   scene_topics.close();
   moveit.close();
   checks.stop();
   plans.stop();
+  kinematics.stop();
   server.stop();
   scene_topics.stop();
   moveit.stop();

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "collision/parallel_for.h"
+#include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 #include "model/inverse_kinematics/ik_search.h"
 
@@ -23,7 +25,8 @@ constexpr std::size_t kCandidatesPerSolution = 50;
 
 IkOptions candidateOptions(IkOptions options)
 {
-  options.max_solutions *= kCandidatesPerSolution;
+  constexpr std::size_t kMost = std::numeric_limits<std::size_t>::max() / kCandidatesPerSolution;
+  options.max_solutions = std::min(options.max_solutions, kMost) * kCandidatesPerSolution;
   return options;
 }
 
@@ -177,6 +180,7 @@ std::vector<CollisionFreeIkResult> solveCollisionFree(const PlanningScene& scene
   if (state.size() != scene.robot->variables().size())
     throw Error("the state has " + std::to_string(state.size()) + " values; the robot has " +
                 std::to_string(scene.robot->variables().size()) + " variables");
+  validateStates(*scene.robot, state.data(), 1);
   Solver solver(scene, checker, group, state, options);
   for (std::size_t i = 0; i < goals.size(); ++i)
   {

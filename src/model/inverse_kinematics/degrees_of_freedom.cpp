@@ -38,6 +38,8 @@ void advance(const DegreesOfFreedom& freedoms, const Eigen::VectorXd& step, doub
       continue;
     }
     Eigen::Map<Eigen::Quaterniond> rotation(value);  // x, y, z, w
+    if (rotation.coeffs().isZero(0.0))
+      rotation.setIdentity();  // as RobotModel::linkPoses takes it
     rotation = (rotation * Eigen::Quaterniond(Eigen::AngleAxisd(by, Eigen::Vector3d::Unit(freedom.axis)))).normalized();
   }
 }
@@ -54,6 +56,12 @@ void turnTowards(const DegreesOfFreedom& freedoms, const double* wanted, double*
   constexpr double kTurn = 2.0 * kPi;
   for (const DegreeOfFreedom& freedom : freedoms)
   {
+    if (freedom.axis == 0)
+    {
+      Eigen::Map<Eigen::Vector4d> quaternion(state + freedom.variable);
+      if (quaternion.dot(Eigen::Map<const Eigen::Vector4d>(wanted + freedom.variable)) < 0.0)
+        quaternion = -quaternion;
+    }
     if (!freedom.is_turn)
       continue;
     double& angle = state[freedom.variable];

@@ -29,6 +29,7 @@ void advance(const DegreesOfFreedom& freedoms, const Eigen::VectorXd& step, doub
 /// Moves values beyond the limits to the limits.
 void clampToLimits(const DegreesOfFreedom& freedoms, double* state);
 
-/// Adds whole turns to angles, so that they are as near to `wanted` as their limits allow.
+/// Adds whole turns to angles, so that they are as near to `wanted` as their limits allow. Of the two quaternions of a
+/// rotation, takes the one that is nearer to that of `wanted`.
 void turnTowards(const DegreesOfFreedom& freedoms, const double* wanted, double* state);
 }  // namespace gpu_planning_scene::core

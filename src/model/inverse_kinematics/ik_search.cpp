@@ -8,13 +8,24 @@
 
 namespace gpu_planning_scene::core
 {
+namespace
+{
+/// The state with values in the ranges of the constraints. Variables that are no degree of freedom keep these values.
+std::vector<double> clampedTo(const KinematicConstraints& constraints, const double* state, std::size_t width)
+{
+  std::vector<double> clamped(state, state + width);
+  constraints.clampJoints(clamped.data());
+  return clamped;
+}
+}  // namespace
+
 IkSearch::IkSearch(const InverseKinematics& kinematics, const double* state, const IkOptions& options)
   : kinematics_(kinematics),
     options_(options),
     freedoms_(narrowed(kinematics.chains().degreesOfFreedom(), kinematics.constraints().joints)),
     descent_(kinematics.constraints(), kinematics.chains(), freedoms_),
-    starts_(freedoms_, state, kinematics.chains().robot().variables().size(), options.seed),
-    given_(state, state + kinematics.chains().robot().variables().size())
+    given_(clampedTo(kinematics.constraints(), state, kinematics.chains().robot().variables().size())),
+    starts_(freedoms_, given_.data(), given_.size(), options.seed)
 {
   if (options.max_solutions == 0 || options.max_attempts == 0)
     throw Error("inverse kinematics needs at least one attempt and one solution");
@@ -45,7 +56,6 @@ std::optional<std::vector<double>> IkSearch::next(const std::function<bool()>& s
     if (!is_solution && descent_.squaredError() >= least_error_)
       continue;
     turnTowards(freedoms_, given_.data(), state.data());
-    kinematics_.constraints().clampJoints(state.data());
     if (!is_solution)
     {
       least_error_ = descent_.squaredError();

@@ -32,8 +32,8 @@ class IkSearch
   const IkOptions options_;
   const DegreesOfFreedom freedoms_;
   Descent descent_;
+  const std::vector<double> given_;  // within the ranges of the constraints
   StartStates starts_;
-  const std::vector<double> given_;
   std::vector<std::vector<double>> found_;
   std::size_t attempts_ = 0;
   std::vector<double> nearest_;

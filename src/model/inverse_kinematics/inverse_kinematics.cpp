@@ -1,5 +1,6 @@
 #include "gpu_planning_scene/inverse_kinematics.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "gpu_planning_scene/error.h"
@@ -44,8 +45,13 @@ InverseKinematics::InverseKinematics(std::shared_ptr<const RobotModel> robot, co
                                      KinematicConstraints constraints)
   : constraints_(std::move(constraints))
 {
-  constraints_.validate(*robot, "the constraints");
+  constraints_.validate(*robot, "the list of constraints");
   const Group& of = robot->group(group);
+  for (const JointConstraint& range : constraints_.joints)
+    if (!std::binary_search(of.variables.begin(), of.variables.end(), range.variable))
+      throw Error("the list of constraints has a range of joint '" +
+                  robot->variables()[static_cast<std::size_t>(range.variable)].name + "', which group '" + group +
+                  "' does not move");
   chains_ = std::make_unique<const KinematicChains>(std::move(robot), of, constraints_.links());
 }
 

@@ -13,12 +13,16 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kLeastTolerance = 1e-9;  // radians or metres: above the rounding of link poses
+// Above the rounding of link poses. KinematicConstraints::pose makes three smaller tolerances of an angle of 1e-9 rad.
+constexpr double kLeastLength = 1e-9;  // metres
+constexpr double kLeastAngle = 5e-10;  // radians
 
-void requireTolerance(double value, const std::string& what)
+constexpr int kTranslations = 3;  // the variables of a floating joint before those of its rotation
+
+void requireTolerance(double value, double least, const std::string& what)
 {
-  if (!(std::isfinite(value) && value >= kLeastTolerance))
-    throw Error(what + " is " + numberText(value) + "; it must be at least 1e-9");
+  if (!(std::isfinite(value) && value >= least))
+    throw Error(what + " is " + numberText(value) + "; it must be at least " + numberText(least));
 }
 
 const std::string& linkName(const RobotModel& robot, int link, const std::string& where)
@@ -35,9 +39,9 @@ void validatePosition(const PositionConstraint& constraint, const RobotModel& ro
     throw Error(of + " has an offset that is not finite");
   nearestRigid(constraint.pose, of);
   if (const auto* sphere = std::get_if<Sphere>(&constraint.region))
-    return requireTolerance(sphere->radius, of + ": the radius");
+    return requireTolerance(sphere->radius, kLeastLength, of + ": the radius");
   for (const double size : std::get<Box>(constraint.region).size)
-    requireTolerance(size, of + ": a size of the box");
+    requireTolerance(size, kLeastLength, of + ": a size of the box");
 }
 
 void validateOrientation(const OrientationConstraint& constraint, const RobotModel& robot, const std::string& where)
@@ -50,7 +54,7 @@ void validateOrientation(const OrientationConstraint& constraint, const RobotMod
     nearestRigid(pose, of);
   }
   for (const double tolerance : constraint.tolerance)
-    requireTolerance(tolerance, of + ": a tolerance");
+    requireTolerance(tolerance, kLeastAngle, of + ": a tolerance");
 }
 
 void validateJoint(const JointConstraint& constraint, const RobotModel& robot, const std::string& where)
@@ -62,6 +66,11 @@ void validateJoint(const JointConstraint& constraint, const RobotModel& robot, c
                          " to " + numberText(constraint.upper) + ",";
   if (!(std::isfinite(constraint.lower) && std::isfinite(constraint.upper) && constraint.lower <= constraint.upper))
     throw Error(of + " is not a range");
+  for (const Joint& joint : robot.joints())
+    if (joint.type == JointType::Floating && constraint.variable >= joint.first_variable + kTranslations &&
+        constraint.variable < joint.first_variable + variableCount(joint.type))
+      throw Error(of + " is that of a quaternion's component; constrain the orientation of link '" +
+                  robot.links()[static_cast<std::size_t>(joint.child_link)].name + "' instead");
   if (variable.bounded && (constraint.lower > variable.upper || constraint.upper < variable.lower))
     throw Error(of + " is outside the joint's limits, " + numberText(variable.lower) + " to " +
                 numberText(variable.upper));

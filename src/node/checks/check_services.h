@@ -42,6 +42,9 @@ class CheckServices
   CheckTrajectory::Response checkTrajectory(const CheckTrajectory::Request& request);
   GetReport::Response report(const GetReport::Request& request);
 
+  /// An inspector of this scene. The inspector of the newest scene is kept. Throws Error as StateInspector does.
+  std::shared_ptr<const StateInspector> inspectorOf(const std::shared_ptr<const PlanningScene>& scene);
+
   /// Stops the computation of contacts and clearance. Running and queued requests for them get the error "shutting
   /// down". Other requests get this error if they wait for a checker for some seconds more.
   void stop();
@@ -51,7 +54,6 @@ class CheckServices
   CheckAnswer answerOf(CheckJob job) const;
   std::optional<Snapshot> wantedScene(std::uint64_t revision);
   void inspect(const CheckStates::Request& request, const CheckAnswer& answer, CheckStates::Response& response);
-  std::shared_ptr<const StateInspector> inspectorOf(const std::shared_ptr<const PlanningScene>& scene);
 
   const SceneStore& store_;
   CheckServer& server_;

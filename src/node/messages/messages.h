@@ -9,6 +9,9 @@
 #include <gpu_planning_scene/CheckStates.h>
 #include <gpu_planning_scene/CheckTrajectory.h>
 #include <gpu_planning_scene/Clear.h>
+#include <gpu_planning_scene/ComputeCartesianPath.h>
+#include <gpu_planning_scene/ComputeFk.h>
+#include <gpu_planning_scene/ComputeIk.h>
 #include <gpu_planning_scene/Constraints.h>
 #include <gpu_planning_scene/ContactInformation.h>
 #include <gpu_planning_scene/GetPlanningScene.h>

@@ -47,15 +47,12 @@ const Eigen::Isometry3d& PoseReader::frame(const StampedFrame& name)
   return frames_.emplace(name, of_scene ? *of_scene : lookup_(name)).first->second;
 }
 
-KinematicConstraints PoseReader::constraints(const LinkFrame& moved, const geometry_msgs::PoseStamped& message,
-                                             const PoseTolerances& tolerances, const std::string& where)
+Eigen::Isometry3d PoseReader::pose(const geometry_msgs::PoseStamped& message, bool with_orientation,
+                                   const std::string& where)
 {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  const geometry_msgs::Point& position = message.pose.position;
-  pose.translation() = Eigen::Vector3d(position.x, position.y, position.z);
-  if (!pose.translation().allFinite())
-    throw Error(where + ": the position is not finite");
-  if (tolerances.orientation < kPi)
+  pose.translation() = constraint_messages::vectorOf(message.pose.position, where + ": the position");
+  if (with_orientation)
     pose.linear() = constraint_messages::rotationOf(message.pose.orientation, where).toRotationMatrix();
   try
   {
@@ -65,7 +62,18 @@ KinematicConstraints PoseReader::constraints(const LinkFrame& moved, const geome
   {
     throw Error(where + ": " + error.what());
   }
-  return KinematicConstraints::pose(moved.link, moved.pose, nearestRigid(pose, where), tolerances.position,
-                                    tolerances.orientation);
+  return nearestRigid(pose, where);
+}
+
+Eigen::Isometry3d PoseReader::pose(const geometry_msgs::PoseStamped& message, const std::string& where)
+{
+  return pose(message, true, where);
+}
+
+KinematicConstraints PoseReader::constraints(const LinkFrame& moved, const geometry_msgs::PoseStamped& message,
+                                             const PoseTolerances& tolerances, const std::string& where)
+{
+  return KinematicConstraints::pose(moved.link, moved.pose, pose(message, tolerances.orientation < kPi, where),
+                                    tolerances.position, tolerances.orientation);
 }
 }  // namespace gpu_planning_scene::core

@@ -44,6 +44,9 @@ class PoseReader
   /// The pose of a frame in the planning frame. Throws Error if it is not found.
   const Eigen::Isometry3d& frame(const StampedFrame& name);
 
+  /// The pose of a message in the planning frame. Throws Error as constraints() does.
+  Eigen::Isometry3d pose(const geometry_msgs::PoseStamped& message, const std::string& where);
+
   /// `moved` has the pose of the message, up to the tolerances. Throws Error that begins with `where` if the frame of
   /// the message is not found, if a number is not finite, or if an orientation is wanted and the quaternion is not of
   /// length 1.
@@ -51,6 +54,8 @@ class PoseReader
                                    const PoseTolerances& tolerances, const std::string& where);
 
  private:
+  Eigen::Isometry3d pose(const geometry_msgs::PoseStamped& message, bool with_orientation, const std::string& where);
+
   const PlanningScene& scene_;
   const double* state_;
   const SceneStore::Lookup& lookup_;

@@ -47,6 +47,36 @@ NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::st
   return row;
 }
 
+RequestedState requestedState(const RobotModel& robot, const RequestField<std::vector<std::string>>& names,
+                              const RequestField<std::vector<double>>& values, const RequestField<std::string>& named,
+                              const PartialState& current, const std::string& what)
+{
+  RequestedState requested;
+  requested.row = {names.values, values.values};
+  if (!named.values.empty())
+    requested.row = requestedNamedState(robot, named,
+                                        !names.values.empty()    ? names.name
+                                        : !values.values.empty() ? values.name
+                                                                 : nullptr);
+  if (!requested.row.names.empty() || !requested.row.values.empty())
+    requested.columns = requestedColumns(
+        robot, {names.name, requested.row.names}, {values.name, requested.row.values},
+        [&](std::size_t count)
+        {
+          if (count != 1)
+            throw Error(std::string(values.name) + " has " + std::to_string(count) + " rows; give one state");
+        });
+  try
+  {
+    requested.state = fullStates(robot, requested.columns, requested.row.values.data(), 1, current);
+  }
+  catch (const Error& error)
+  {
+    throw Error(what + ": " + error.what());
+  }
+  return requested;
+}
+
 void requireWholeRotations(const RobotModel& robot, const std::vector<int>& columns)
 {
   constexpr int kRotation = 3;  // index of the first rotation variable of a floating joint, after the position

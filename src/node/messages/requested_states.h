@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu_planning_scene/robot_model.h"
+#include "model/full_states.h"
 
 namespace gpu_planning_scene::core
 {
@@ -34,6 +35,20 @@ struct NamedRow
 /// the request that must be empty but is not; null if there is none. Throws Error if there is one, or if the SRDF has
 /// no such state.
 NamedRow requestedNamedState(const RobotModel& robot, const RequestField<std::string>& field, const char* conflict);
+
+/// One full state of a request: the values that it names, and otherwise those of the current state.
+struct RequestedState
+{
+  std::vector<double> state;
+  NamedRow row;              ///< what the request, or the SRDF's state that it names, sets
+  std::vector<int> columns;  ///< the variables of `row`
+};
+
+/// `names`, `values`: a row of values. `named`: instead, a state that the SRDF names. If all are empty: the current
+/// state. `what`: "the start", begins messages about values that nobody knows. Throws Error for a wrong request.
+RequestedState requestedState(const RobotModel& robot, const RequestField<std::vector<std::string>>& names,
+                              const RequestField<std::vector<double>>& values, const RequestField<std::string>& named,
+                              const PartialState& current, const std::string& what);
 
 /// Throws Error if the columns have only some of the four variables of a floating joint's rotation: a motion between
 /// two such rotations is not defined.

@@ -130,34 +130,11 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
   const RobotModel& robot = *now.scene->robot;
   PlanningQuery query;
   query.group = request.group;
-  const auto one = [](std::size_t count)
-  {
-    if (count != 1)
-      throw Error("start has " + std::to_string(count) + " rows; a motion has one start");
-  };
-  const PartialState current = now.partialState();
-  NamedRow start_row{request.start_names, request.start};
-  if (!request.named_start.empty())
-    start_row = requestedNamedState(robot, {"named_start", request.named_start},
-                                    !request.start_names.empty() ? "start_names"
-                                    : !request.start.empty()     ? "start"
-                                                                 : nullptr);
-  if (start_row.names.empty() && start_row.values.empty())
-    query.start = fullStates(robot, {}, nullptr, 1, current);
-  else
-  {
-    const std::vector<int> columns =
-        requestedColumns(robot, {"start_names", start_row.names}, {"start", start_row.values}, one);
-    requireWholeRotations(robot, columns);
-    try
-    {
-      query.start = fullStates(robot, columns, start_row.values.data(), 1, current);
-    }
-    catch (const Error& error)
-    {
-      throw Error(std::string("the start of the motion: ") + error.what());
-    }
-  }
+  RequestedState start_state =
+      requestedState(robot, {"start_names", request.start_names}, {"start", request.start},
+                     {"named_start", request.named_start}, now.partialState(), "the start of the motion");
+  requireWholeRotations(robot, start_state.columns);
+  query.start = std::move(start_state.state);
   const auto few = [&options](std::size_t count)
   {
     if (count > options.max_goals)

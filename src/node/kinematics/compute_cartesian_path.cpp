@@ -1,0 +1,130 @@
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning/cartesian_path.h"
+#include "model/rigid_pose.h"
+#include "model/seconds_since.h"
+#include "model/text/number_text.h"
+#include "node/endpoints/respond.h"
+#include "node/kinematics/kinematics_services.h"
+#include "node/kinematics/state_warnings.h"
+#include "node/messages/requested_poses.h"
+#include "node/planning/requested_goals.h"
+
+// The service ~compute_cartesian_path.
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Request = ComputeCartesianPath::Request;
+
+/// 0 means the default.
+double valueOr(double requested, double fallback, const char* field)
+{
+  if (!(std::isfinite(requested) && requested >= 0.0))
+    throw Error(std::string(field) + " is " + numberText(requested) +
+                "; it must be at least 0 (0: " + numberText(fallback) + ")");
+  return requested == 0.0 ? fallback : requested;
+}
+
+void setSteps(const Request& request, CartesianQuery& query)
+{
+  query.max_step = valueOr(request.max_step, query.max_step, "max_step");
+  query.max_rotation_step = valueOr(request.max_rotation_step, query.max_rotation_step, "max_rotation_step");
+  query.max_deviation = valueOr(request.max_deviation, query.max_deviation, "max_deviation");
+  query.max_rotation_deviation =
+      valueOr(request.max_rotation_deviation, query.max_rotation_deviation, "max_rotation_deviation");
+  query.max_joint_step = valueOr(request.max_joint_step, query.max_joint_step, "max_joint_step");
+}
+
+/// Refuses lines of so many steps that they would keep the node busy for minutes.
+void requireFewSteps(const CartesianQuery& query, const Eigen::Isometry3d& start, std::size_t limit)
+{
+  double steps = 0.0;
+  Eigen::Isometry3d from = start;
+  for (const Eigen::Isometry3d& to : query.waypoints)
+  {
+    const double angle = Eigen::Quaterniond(from.linear()).angularDistance(Eigen::Quaterniond(to.linear()));
+    steps += std::ceil(
+        std::max((to.translation() - from.translation()).norm() / query.max_step, angle / query.max_rotation_step));
+    from = to;
+  }
+  if (!(steps <= static_cast<double>(limit)))
+    throw Error("the lines have " + numberText(steps) + " steps; a request may have " + std::to_string(limit) +
+                " (limits/request_states): take larger steps, or send fewer waypoints");
+}
+
+trajectory_msgs::JointTrajectory trajectoryOf(const RobotModel& robot, const std::string& group,
+                                              const CartesianPath& path)
+{
+  trajectory_msgs::JointTrajectory trajectory;
+  trajectory.header.frame_id = robot.planningFrame();
+  const std::vector<int>& variables = robot.group(group).variables;
+  for (const int variable : variables)
+    trajectory.joint_names.push_back(robot.variables()[static_cast<std::size_t>(variable)].name);
+  for (const std::vector<double>& row : path.rows)
+  {
+    trajectory.points.emplace_back();
+    for (const int variable : variables)
+      trajectory.points.back().positions.push_back(row[static_cast<std::size_t>(variable)]);
+  }
+  return trajectory;
+}
+}  // namespace
+
+ComputeCartesianPath::Response KinematicsServices::computeCartesianPath(const Request& request)
+{
+  return respond<ComputeCartesianPath::Response>(
+      [&](ComputeCartesianPath::Response& response)
+      {
+        memory_.require();
+        const Admission::Pass pass(admission_);
+        const RequestedScene requested = requestedScene(store_, lookup_, request.scene_diff, {});
+        const std::shared_ptr<const PlanningScene>& scene = requested.now.scene;
+        std::vector<std::string> warnings = requested.warnings;
+        CartesianQuery query;
+        query.group = request.group;
+        const LinkFrame frame = requestedFrame(*scene, request.group, request.link);
+        query.link = frame.link;
+        query.frame = frame.pose;
+        RequestedState start =
+            requestedState(*scene->robot, {"start_names", request.start_names}, {"start", request.start},
+                           {"named_start", request.named_start}, requested.now.partialState(), "the start");
+        query.start = std::move(start.state);
+        addStateWarnings(requested.now, request.group, start, query.start, "the start", warnings);
+        PoseReader reader(*scene, query.start.data(), lookup_);
+        for (std::size_t i = 0; i < request.waypoints.size(); ++i)
+          query.waypoints.push_back(reader.pose(request.waypoints[i], "waypoints[" + std::to_string(i) + "]"));
+        setSteps(request, query);
+        query.check_collisions = request.ignore_collisions == 0;
+        query.motions = options_.motions;
+        if (!request.motion_rule.empty())
+          query.motions.rule = motionRuleFromName(request.motion_rule);
+        query.path_constraints =
+            requestedPathConstraints(request.path_constraints, *scene, request.group, query.start.data(), lookup_);
+        std::vector<Eigen::Isometry3d> links(scene->robot->links().size());
+        scene->robot->linkPoses(query.start.data(), links.data());
+        requireFewSteps(query, links[static_cast<std::size_t>(frame.link)] * frame.pose, options_.max_poses);
+
+        const auto began = std::chrono::steady_clock::now();
+        CheckerPool::Lease lease(checkers_, scene);
+        const CartesianPath path = withLease(
+            lease,
+            [&]
+            {
+              return followLines(
+                  scene, lease.checker(), query, [this] { return stopping_.load(); });
+            });
+        response.seconds = secondsSince(began);
+        response.fraction = path.fraction;
+        response.message = path.message;
+        addWarnings(warnings, response.message);
+        response.trajectory = trajectoryOf(*scene->robot, request.group, path);
+        response.states_checked = path.states_checked;
+        response.scene_revision = path.revision;
+      });
+}
+}  // namespace gpu_planning_scene::core
