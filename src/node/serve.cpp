@@ -111,7 +111,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
     diagnostics.watchScene([&leader] { return leader->fault(); });
   }
   const Endpoints::Refusal leader_fault = [&leader] { return leader ? leader->fault() : ""; };
-  MoveItInterface moveit({node, own, store, changes, checks, lookup, diagnostics, options, leader_fault});
+  MoveItInterface moveit({node, own, store, changes, checks, kinematics, lookup, diagnostics, options, leader_fault});
   const Endpoints::Refusal scene_fault = [&] { return leader ? leader_fault() : moveit.sceneFault(); };
   const Endpoints::Refusal change_fault = [&] { return leader ? leader->changeFault() : moveit.changeFault(); };
 

@@ -1,10 +1,12 @@
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/cartesian_path.h"
+#include "gpu_planning_scene/planning/path_timing.h"
 #include "model/rigid_pose.h"
 #include "model/seconds_since.h"
 #include "model/text/number_text.h"
@@ -12,6 +14,7 @@
 #include "node/kinematics/kinematics_services.h"
 #include "node/kinematics/state_warnings.h"
 #include "node/messages/requested_poses.h"
+#include "node/messages/trajectory_messages.h"
 #include "node/planning/requested_goals.h"
 
 // The service ~compute_cartesian_path.
@@ -57,22 +60,26 @@ void requireFewSteps(const CartesianQuery& query, const Eigen::Isometry3d& start
                 " (limits/request_states): take larger steps, or send fewer waypoints");
 }
 
-trajectory_msgs::JointTrajectory trajectoryOf(const RobotModel& robot, const std::string& group,
-                                              const CartesianPath& path)
+/// The timing that a request wants; no value if it wants none. Throws Error for wrong factors.
+std::optional<PathTimingOptions> timingOf(const Request& request, const CartesianQuery& query, const RobotModel& robot)
 {
-  trajectory_msgs::JointTrajectory trajectory;
-  trajectory.header.frame_id = robot.planningFrame();
-  const std::vector<int>& variables = robot.group(group).variables;
-  for (const int variable : variables)
-    trajectory.joint_names.push_back(robot.variables()[static_cast<std::size_t>(variable)].name);
-  for (const std::vector<double>& row : path.rows)
-  {
-    trajectory.points.emplace_back();
-    for (const int variable : variables)
-      trajectory.points.back().positions.push_back(row[static_cast<std::size_t>(variable)]);
-  }
-  return trajectory;
+  const auto factor = [](double requested) { return requested == 0.0 ? 1.0 : requested; };
+  const PathTimingOptions timing{factor(request.max_velocity_scaling_factor),
+                                 factor(request.max_acceleration_scaling_factor),
+                                 query.path_constraints.isEmpty() ? query.max_deviation : 0.0, query.motions};
+  validateTiming(timing);
+  if (!request.times)
+    return std::nullopt;
+  requireTimes(robot, query.group);
+  return timing;
 }
+
+/// A path, and its times if they are wanted.
+struct Lines
+{
+  CartesianPath path;
+  std::optional<TimedPath> timed;
+};
 }  // namespace
 
 ComputeCartesianPath::Response KinematicsServices::computeCartesianPath(const Request& request)
@@ -110,21 +117,28 @@ ComputeCartesianPath::Response KinematicsServices::computeCartesianPath(const Re
         requireFewSteps(query, links[static_cast<std::size_t>(frame.link)] * frame.pose, options_.max_poses);
 
         const auto began = std::chrono::steady_clock::now();
+        const std::optional<PathTimingOptions> timing = timingOf(request, query, *scene->robot);
         CheckerPool::Lease lease(checkers_, scene);
-        const CartesianPath path = withLease(
+        const Lines lines = withLease(
             lease,
             [&]
             {
-              return followLines(
-                  scene, lease.checker(), query, [this] { return stopping_.load(); });
+              const auto stop = [this] { return stopping_.load(); };
+              Lines found{followLines(scene, lease.checker(), query, stop), {}};
+              if (timing)
+                found.timed = timePath(*scene, lease.checker(), query.group, found.path.rows, *timing, stop);
+              return found;
             });
         response.seconds = secondsSince(began);
-        response.fraction = path.fraction;
-        response.message = path.message;
+        response.fraction = lines.path.fraction;
+        response.message = lines.path.message;
         addWarnings(warnings, response.message);
-        response.trajectory = trajectoryOf(*scene->robot, request.group, path);
-        response.states_checked = path.states_checked;
-        response.scene_revision = path.revision;
+        if (lines.timed)
+          addWarning(lines.timed->message, response.message);
+        response.trajectory = trajectoryOf(*scene->robot, scene->robot->group(query.group), lines.path.rows,
+                                           lines.timed ? &*lines.timed : nullptr);
+        response.states_checked = lines.path.states_checked + (lines.timed ? lines.timed->states_checked : 0);
+        response.scene_revision = lines.path.revision;
       });
 }
 }  // namespace gpu_planning_scene::core

@@ -21,6 +21,7 @@ struct MoveItInterface::Impl
     : options((requireMoveItLayouts(), moveItOptionsFromParameters(node.node, node.own))),
       look_up([&lookup = node.lookup](const StampedFrame& frame) { return lookup(frame, lookup.deadline()); }),
       validity(node.store, node.changes, node.checks, node.options.max_contacts),
+      kinematics(node.store, node.kinematics),
       requests(node.node, node.own, kValidityThreads, node.diagnostics,
                [this, node_fault = node.scene_fault] { return node_fault().empty() ? sceneFault() : node_fault(); })
   {
@@ -30,7 +31,7 @@ struct MoveItInterface::Impl
       node.diagnostics.watchScene([this] { return sceneFault(); });
     }
     if (options.names)
-      names.emplace(node.node, node.store, node.changes, validity, node.lookup, node.diagnostics,
+      names.emplace(node.node, node.store, node.changes, validity, kinematics, node.lookup, node.diagnostics,
                     node.options.max_waiting_changes, node.options.message_size);
     requests.advertise<MoveItStateValidity>(
         "check_state_validity", [this](const MoveItStateValidity::Request& r) { return validity.answer(r.ours); });
@@ -41,6 +42,7 @@ struct MoveItInterface::Impl
   const MoveItOptions options;
   const SceneStore::Lookup look_up;
   const StateValidity validity;
+  const MoveItKinematics kinematics;
   std::optional<FollowedScene> followed;
   std::optional<MoveItNames> names;
   Endpoints requests;

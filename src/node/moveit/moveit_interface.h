@@ -5,6 +5,7 @@
 
 #include "node/checks/check_services.h"
 #include "node/endpoints/endpoints.h"
+#include "node/kinematics/kinematics_services.h"
 #include "node/parameters/node_parameters.h"
 #include "node/scene/frame_lookup.h"
 #include "node/scene/scene_services.h"
@@ -25,6 +26,7 @@ class MoveItInterface
     SceneStore& store;
     SceneServices& changes;
     CheckServices& checks;
+    KinematicsServices& kinematics;
     const FrameLookup& lookup;
     Diagnostics& diagnostics;
     const ServiceOptions& options;

@@ -14,11 +14,14 @@ constexpr std::size_t kCheckThreads = 16;
 constexpr char kApplyScene[] = "apply_planning_scene";
 constexpr char kGetScene[] = "get_planning_scene";
 constexpr char kStateValidity[] = "check_state_validity";
+constexpr char kIk[] = "compute_ik";
+constexpr char kFk[] = "compute_fk";
+constexpr char kLines[] = "compute_cartesian_path";
 
 /// ROS would let the node take the service away from the other node silently.
 void requireFreeServices(const ros::NodeHandle& node)
 {
-  for (const char* name : {kApplyScene, kGetScene, kStateValidity})
+  for (const char* name : {kApplyScene, kGetScene, kStateValidity, kIk, kFk, kLines})
     if (const std::string service = node.resolveName(name); ros::service::exists(service, false))
       throw Error("parameter ~moveit_names is true, but another node has the service " + service +
                   " already; to follow a running move_group, give its name in ~monitor instead");
@@ -98,8 +101,8 @@ void MoveItScenePublisher::publishState()
 }
 
 MoveItNames::MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices& changes,
-                         const StateValidity& validity, const FrameLookup& lookup, Diagnostics& diagnostics,
-                         std::size_t max_changes, std::size_t max_bytes)
+                         const StateValidity& validity, const MoveItKinematics& kinematics, const FrameLookup& lookup,
+                         Diagnostics& diagnostics, std::size_t max_changes, std::size_t max_bytes)
   : publisher_((requireFreeServices(node), node), store),
     scenes_(node, node, kSceneThreads, diagnostics),
     checks_(node, node, kCheckThreads, diagnostics),
@@ -123,6 +126,12 @@ MoveItNames::MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices
       "attached_collision_object", [&changes](const MoveItAttachedObject& m) { return changes.changeOf(m.ours); });
   checks_.advertise<MoveItStateValidity>(
       kStateValidity, [&validity](const MoveItStateValidity::Request& r) { return validity.answer(r.ours); });
+  checks_.advertise<moveit_msgs::GetPositionIK>(
+      kIk, [&kinematics](const moveit_msgs::GetPositionIK::Request& r) { return kinematics.ik(r); });
+  checks_.advertise<moveit_msgs::GetPositionFK>(
+      kFk, [&kinematics](const moveit_msgs::GetPositionFK::Request& r) { return kinematics.fk(r); });
+  checks_.advertise<moveit_msgs::GetCartesianPath>(
+      kLines, [&kinematics](const moveit_msgs::GetCartesianPath::Request& r) { return kinematics.lines(r); });
   scenes_.advertise<MoveItGetScene>(kGetScene, [&changes](const MoveItGetScene::Request& r)
                                     { return MoveItGetScene::Response{changes.get(r.ours).scene}; });
   scenes_.advertise<MoveItApplyScene>(kApplyScene,

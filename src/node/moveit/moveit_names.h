@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "node/endpoints/topic_warnings.h"
+#include "node/moveit/moveit_kinematics.h"
 #include "node/moveit/moveit_messages.h"
 #include "node/moveit/state_validity.h"
 #include "node/scene/scene_topics.h"
@@ -37,7 +38,8 @@ class MoveItNames
  public:
   /// Throws Error if another node has one of the services. All arguments must outlive this object.
   MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices& changes, const StateValidity& validity,
-              const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t max_changes, std::size_t max_bytes);
+              const MoveItKinematics& kinematics, const FrameLookup& lookup, Diagnostics& diagnostics,
+              std::size_t max_changes, std::size_t max_bytes);
   ~MoveItNames() = default;
   MoveItNames(const MoveItNames&) = delete;
   MoveItNames& operator=(const MoveItNames&) = delete;

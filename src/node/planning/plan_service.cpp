@@ -13,6 +13,7 @@
 #include "model/joint_limits.h"
 #include "node/endpoints/respond.h"
 #include "node/messages/requested_changes.h"
+#include "node/messages/trajectory_messages.h"
 #include "node/planning/requested_goals.h"
 #include "service/busy.h"
 
@@ -48,42 +49,6 @@ std::uint8_t statusOf(PlanningStatus status)
       return Response::GOAL_VIOLATES_CONSTRAINTS;
   }
   return Response::FAILED;
-}
-
-/// The values of the group's variables in a full row.
-std::vector<double> valuesOf(const std::vector<double>& row, const Group& group)
-{
-  std::vector<double> values;
-  for (const int variable : group.variables)
-    values.push_back(row[static_cast<std::size_t>(variable)]);
-  return values;
-}
-
-/// `timed`: null for waypoints without times.
-trajectory_msgs::JointTrajectory trajectoryOf(const PlanningScene& scene, const PlanningResult& result,
-                                              const TimedPath* timed, const Group& group)
-{
-  trajectory_msgs::JointTrajectory trajectory;
-  trajectory.header.frame_id = scene.robot->planningFrame();
-  for (const int variable : group.variables)
-    trajectory.joint_names.push_back(scene.robot->variables()[static_cast<std::size_t>(variable)].name);
-  const auto add = [&](const std::vector<double>& row) -> trajectory_msgs::JointTrajectoryPoint&
-  {
-    trajectory.points.emplace_back().positions = valuesOf(row, group);
-    return trajectory.points.back();
-  };
-  if (timed == nullptr)
-    for (const std::vector<double>& row : result.waypoints)
-      add(row);
-  else
-    for (const TimedPoint& timed_point : timed->points)
-    {
-      trajectory_msgs::JointTrajectoryPoint& point = add(timed_point.positions);
-      point.velocities = valuesOf(timed_point.velocities, group);
-      point.accelerations = valuesOf(timed_point.accelerations, group);
-      point.time_from_start = ros::Duration(timed_point.seconds);
-    }
-  return trajectory;
 }
 
 /// An error in the request.
@@ -266,7 +231,8 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
   response.status = statusOf(result.status);
   response.message = result.message;
   addWarnings(task.warnings, response.message);
-  response.trajectory = trajectoryOf(*task.scene, result, answer.timed ? &*answer.timed : nullptr, group);
+  response.trajectory =
+      trajectoryOf(*task.scene->robot, group, result.waypoints, answer.timed ? &*answer.timed : nullptr);
   response.planner = task.planner;
   response.planning_time = result.planning_seconds;
   response.simplification_time = result.simplification_seconds;
