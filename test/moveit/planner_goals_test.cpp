@@ -24,10 +24,9 @@ constexpr char kTip[] = "panda_link8";
 class PlannerGoals : public Planner
 {
  protected:
-  /// The pose of the tip in a state, as setPoseTarget sends it.
-  static geometry_msgs::PoseStamped poseOf(const RobotState& state, const std::string& link = kTip)
+  /// A pose, as setPoseTarget sends it.
+  static geometry_msgs::PoseStamped messageOf(const Isometry3d& pose)
   {
-    const Isometry3d& pose = state.getGlobalLinkTransform(link);
     geometry_msgs::PoseStamped message;
     message.header.frame_id = "world";
     const Eigen::Quaterniond rotation(pose.linear());
@@ -39,6 +38,11 @@ class PlannerGoals : public Planner
     message.pose.orientation.z = rotation.z();
     message.pose.orientation.w = rotation.w();
     return message;
+  }
+
+  static geometry_msgs::PoseStamped poseOf(const RobotState& state)
+  {
+    return messageOf(state.getGlobalLinkTransform(kTip));
   }
 
   MotionPlanRequest poseRequest(const geometry_msgs::PoseStamped& pose, const std::string& link = kTip) const
@@ -126,6 +130,49 @@ TEST_F(PlannerGoals, AnAttachedObjectHasAPoseToo)
   ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked, response));
   EXPECT_NEAR(0.0, (response.trajectory_->getLastWayPoint().getFrameTransform("tool").translation() - tool).norm(),
               1e-3);
+}
+
+TEST_F(PlannerGoals, AnObjectIsPickedAndPlaced)
+{
+  // The steps of MoveIt's tutorial: to the object, attach it, to the place, detach it, and away.
+  const Isometry3d grasp = goal_.getGlobalLinkTransform(kTip);
+  const Vector3d object = (goal_.getGlobalLinkTransform("panda_hand") * at(0.0, 0.0, 0.14)).translation();
+  addObject("table", box(0.3, 0.3, 0.02), at(object.x(), object.y(), object.z() - 0.065));
+  addObject("object", box(0.02, 0.02, 0.1), at(object.x(), object.y(), object.z()));
+  const auto move_to = [&](const Isometry3d& pose)
+  {
+    const MotionPlanRequest asked = poseRequest(messageOf(pose));
+    MotionPlanResponse response;
+    ASSERT_EQ(int(MoveItErrorCodes::SUCCESS), plan(asked, response));
+    EXPECT_EQ(0, collidingStates(*response.trajectory_));
+    EXPECT_TRUE(fulfils(response.trajectory_->getLastWayPoint(), asked.goal_constraints[0]));
+    scene_->setCurrentState(response.trajectory_->getLastWayPoint());
+  };
+  collision_detection::AllowedCollisionMatrix& matrix = scene_->getAllowedCollisionMatrixNonConst();
+  for (const std::string& link : kHandLinks)
+    matrix.setEntry("object", link, true);
+  move_to(grasp);
+
+  moveit_msgs::AttachedCollisionObject attached;
+  attached.link_name = "panda_hand";
+  attached.object.id = "object";
+  attached.object.operation = moveit_msgs::CollisionObject::ADD;
+  attached.touch_links.assign(kHandLinks.begin(), kHandLinks.end());
+  ASSERT_TRUE(scene_->processAttachedCollisionObjectMsg(attached));
+  Isometry3d place = grasp;
+  place.translation().z() += 0.1;
+  move_to(place);
+  place.prerotate(Eigen::AngleAxisd(-1.5, Vector3d::UnitZ()));
+  place.translation() =
+      Eigen::AngleAxisd(-1.5, Vector3d::UnitZ()) * Vector3d(grasp.translation() + Vector3d(0.0, 0.0, 0.1));
+  move_to(place);
+  EXPECT_TRUE(scene_->getCurrentState().hasAttachedBody("object"));
+
+  attached.object.operation = moveit_msgs::CollisionObject::REMOVE;
+  ASSERT_TRUE(scene_->processAttachedCollisionObjectMsg(attached));
+  EXPECT_TRUE(scene_->getWorld()->hasObject("object"));
+  place.translation().z() += 0.1;
+  move_to(place);
 }
 
 TEST_F(PlannerGoals, PathConstraintsHoldBetweenWaypoints)
