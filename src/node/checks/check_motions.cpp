@@ -1,9 +1,11 @@
+#include <algorithm>
 #include <tuple>
 #include <utility>
 
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
+#include "gpu_planning_scene/planning/path_constraints.h"
 #include "model/full_states.h"
 #include "model/joint_limits.h"
 #include "node/checks/check_services.h"
@@ -11,6 +13,7 @@
 #include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"
 #include "node/messages/requested_ends.h"
+#include "node/planning/requested_goals.h"
 
 // The service ~check_motions.
 namespace gpu_planning_scene::core
@@ -53,6 +56,19 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
           if (const auto turned = findManyTurns(robot, job.columns, rows->data(), count);
               turned && response.message.empty())
             response.message = name_of(turned->row) + ": " + turned->text;
+        std::vector<std::uint8_t> fulfils;
+        const bool is_known = std::all_of(
+            current.known.begin(), current.known.end(), [](bool known) { return known; });
+        if (const KinematicConstraints constraints =
+                requestedPathConstraints(request.path_constraints, *now.scene, request.group,
+                                         is_known ? current.values.data() : nullptr, lookup_);
+            !constraints.isEmpty())
+        {
+          const PathConstraints path(now.scene->robot, request.group, constraints);
+          const std::size_t width = robot.variables().size();
+          for (std::size_t i = 0; i < count; ++i)
+            fulfils.push_back(path.holdAlong(&starts[i * width], &ends[i * width]) ? 1 : 0);
+        }
         // The full states above serve to count the samples. For the check, the variables that the request does not name
         // come from the checked snapshot, which may be newer than `now`.
         job.states = std::move(given.starts);
@@ -62,9 +78,11 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         if (scene.is_changed)
           job.scene = scene.now;
         const CheckAnswer answer = answerOf(std::move(job));
-        for (const MotionVerdict& verdict : answer.motions)
+        response.fulfils_constraints = fulfils;
+        for (std::size_t i = 0; i < answer.motions.size(); ++i)
         {
-          response.valid.push_back(verdict.valid ? 1 : 0);
+          const MotionVerdict& verdict = answer.motions[i];
+          response.valid.push_back(verdict.valid && (fulfils.empty() || fulfils[i] != 0) ? 1 : 0);
           response.last_valid_fraction.push_back(verdict.last_valid);
           response.first_invalid_fraction.push_back(verdict.first_invalid);
           response.given_up.push_back(verdict.given_up ? 1 : 0);

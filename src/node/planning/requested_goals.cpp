@@ -30,6 +30,11 @@ KinematicConstraints requestedPathConstraints(const Constraints& message, const 
                                               const std::string& group, const double* state,
                                               const SceneStore::Lookup& lookup)
 {
+  if (message.joint_constraints.empty() && message.position_constraints.empty() &&
+      message.orientation_constraints.empty())
+    return {};
+  if (group.empty())
+    throw Error("path_constraints need the group that moves; give `group`");
   PoseReader reader(scene, state, lookup);
   ConstraintFrames frames = framesOf(reader, scene, group);
   const std::vector<int>& moved = scene.robot->group(group).moved_links;

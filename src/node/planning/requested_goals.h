@@ -16,8 +16,8 @@ bool hasGoalRegions(const PlanMotion::Request& request);
 void addRegions(const PlanMotion::Request& request, const PlanningScene& scene, const SceneStore::Lookup& lookup,
                 std::size_t max_goals, PlanningQuery& query);
 
-/// Constraints of a request that hold along motions of a group. `state`: where frames that move with the robot are.
-/// Throws Error for a wrong message, and for a frame that the group moves.
+/// Constraints of a request that hold along motions of a group. `state`: where frames that move with the robot are;
+/// null if it is not known. Throws Error for a wrong message, and for a frame that the group moves.
 KinematicConstraints requestedPathConstraints(const Constraints& message, const PlanningScene& scene,
                                               const std::string& group, const double* state,
                                               const SceneStore::Lookup& lookup);

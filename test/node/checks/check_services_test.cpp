@@ -132,6 +132,42 @@ TEST(MotionsOfADifferentialDrive, AreRefusedIfTheyGoSideways)
   EXPECT_NE(std::string::npos, followed.message.find("part 1: joint 'drive' moves 0.1 m sideways")) << followed.message;
 }
 
+TEST(MotionsUnderPathConstraints, AreValidOnlyIfTheyAreProvenToFulfilThem)
+{
+  const auto robot = RobotModel::fromXml(
+      "<robot name='r'>" + boxLink("base") + "<link name='pole'/><joint name='turn' type='revolute'>" +
+          "<parent link='base'/><child link='pole'/><axis xyz='0 0 1'/><limit lower='-3' upper='3' effort='1' "
+          "velocity='1'/></joint></robot>",
+      "<robot name='r'><group name='mast'><joint name='turn'/></group></robot>", {});
+  AnsweringScene answering{PlanningScene(robot)};
+  CheckServices& services = answering.services;
+  CheckMotions::Request motions;
+  motions.group = "mast";
+  motions.joint_names = {"turn"};
+  motions.starts = {0.0, -0.5, 0.0};
+  motions.ends = {0.05, 0.5, 0.3};
+  motions.resolution = motions.translation_resolution = 0.05;
+  CheckMotions::Response response = services.checkMotions(motions);
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 1, 1}), response.valid) << response.message;
+  EXPECT_TRUE(response.fulfils_constraints.empty());
+  auto& orientation = motions.path_constraints.orientation_constraints.emplace_back();
+  orientation.link_name = "pole";
+  orientation.orientation.w = 1.0;
+  orientation.absolute_x_axis_tolerance = orientation.absolute_y_axis_tolerance =
+      orientation.absolute_z_axis_tolerance = 0.1;
+  response = services.checkMotions(motions);
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 0}), response.valid) << response.message;
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 0}), response.fulfils_constraints);
+  orientation.header.frame_id = "pole";
+  response = services.checkMotions(motions);
+  EXPECT_FALSE(response.success);
+  EXPECT_EQ(0u, response.message.find("path_constraints: the frame 'pole' moves with the group 'mast'"))
+      << response.message;
+  orientation.header.frame_id = "";
+  motions.group = "";
+  EXPECT_EQ("path_constraints need the group that moves; give `group`", services.checkMotions(motions).message);
+}
+
 TEST(MotionsBesideAFloor, ThatAreNotProvenSaySo)
 {
   RobotModelOptions options;
