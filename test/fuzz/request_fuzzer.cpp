@@ -20,6 +20,7 @@
 #include "node/messages/from_messages.h"
 #include "node/messages/to_messages.h"
 #include "node/planning/plan_request.h"
+#include "node/planning/requested_goals.h"
 #include "node/scene/cloud_topic.h"
 #include "node/scene/scene_services.h"
 #include "scene/slider_robot.h"
@@ -234,7 +235,8 @@ class Handlers
   {
     const PlannerConfig config{"geometric::RRTConnect", {{"range", "0.5"}}};
     const Snapshot now = store_.snapshot();
-    const PlanningQuery query = queryFrom(request, now, config, plannersOf(request.group), fewGoals());
+    PlanningQuery query = queryFrom(request, now, config, plannersOf(request.group), fewGoals());
+    addRegions(request, *now.scene, frameOfTf, fewGoals().max_goals, query);
     timingFrom(request, *now.scene->robot, query.motions, fewGoals());
     requireWithinGroup(query, now.scene->robot);
   }
