@@ -27,7 +27,7 @@ constexpr std::size_t kFirstTurns = 4;
 constexpr std::size_t kMostIdleTurns = 100;
 
 // The states of a region fulfil its constraints before the space wraps their angles, which rounds them.
-constexpr double kRounding = 1e-9;
+constexpr double kGoalRounding = 1e-9;
 
 constexpr IkOptions endless(std::uint64_t seed)
 {
@@ -62,7 +62,7 @@ GoalRegions::GoalRegions(const ob::SpaceInformationPtr& information, std::shared
     start_(start),
     fixed_(states)
 {
-  setThreshold(kRounding);
+  setThreshold(kGoalRounding);
   for (std::size_t i = 0; i < regions.size(); ++i)
   {
     try

@@ -12,8 +12,8 @@
 #include "node/checks/requested_motions.h"
 #include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"
+#include "node/messages/requested_constraints.h"
 #include "node/messages/requested_ends.h"
-#include "node/planning/requested_goals.h"
 
 // The service ~check_motions.
 namespace gpu_planning_scene::core

@@ -13,9 +13,9 @@
 #include "node/endpoints/respond.h"
 #include "node/kinematics/kinematics_services.h"
 #include "node/kinematics/state_warnings.h"
+#include "node/messages/requested_constraints.h"
 #include "node/messages/requested_poses.h"
 #include "node/messages/trajectory_messages.h"
-#include "node/planning/requested_goals.h"
 
 // The service ~compute_cartesian_path.
 namespace gpu_planning_scene::core

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
@@ -7,9 +8,10 @@
 #include <Eigen/Geometry>
 
 #include "gpu_planning_scene/kinematic_constraints.h"
+#include "gpu_planning_scene/planning_scene.h"
+#include "gpu_planning_scene/scene_change.h"
 #include "node/messages/requested_states.h"
 #include "scene/link_frame.h"
-#include "service/scene_store.h"
 
 namespace gpu_planning_scene::core
 {
@@ -34,9 +36,11 @@ LinkFrame requestedFrame(const PlanningScene& scene, const std::string& group, c
 class PoseReader
 {
  public:
+  using Lookup = std::function<Eigen::Isometry3d(const StampedFrame&)>;
+
   /// `state`: where frames that move with the robot are; null if it is not known. `lookup`: finds frames that the scene
   /// does not have. The arguments must outlive this object.
-  PoseReader(const PlanningScene& scene, const double* state, const SceneStore::Lookup& lookup)
+  PoseReader(const PlanningScene& scene, const double* state, const Lookup& lookup)
     : scene_(scene), state_(state), lookup_(lookup)
   {
   }
@@ -58,7 +62,7 @@ class PoseReader
 
   const PlanningScene& scene_;
   const double* state_;
-  const SceneStore::Lookup& lookup_;
+  const Lookup& lookup_;
   std::map<StampedFrame, Eigen::Isometry3d> frames_;
 };
 }  // namespace gpu_planning_scene::core

@@ -1,52 +1,21 @@
 #include "node/planning/requested_goals.h"
 
-#include <algorithm>
 #include <string>
 
 #include "gpu_planning_scene/error.h"
+#include "node/messages/requested_constraints.h"
 #include "node/messages/requested_poses.h"
-#include "scene/constraints_from_message.h"
-#include "scene/frame.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
 constexpr PoseTolerances kGoalTolerances{1e-4, 1e-3};  // MoveIt's defaults
-
-ConstraintFrames framesOf(PoseReader& reader, const PlanningScene& scene, const std::string& group)
-{
-  return {[&reader](const StampedFrame& frame) { return reader.frame(frame); },
-          [&scene, &group](const std::string& name) { return requestedFrame(scene, group, name); }};
-}
 }  // namespace
 
 bool hasGoalRegions(const PlanMotion::Request& request)
 {
   return !request.goal_poses.empty() || !request.goal_constraints.empty();
-}
-
-KinematicConstraints requestedPathConstraints(const Constraints& message, const PlanningScene& scene,
-                                              const std::string& group, const double* state,
-                                              const SceneStore::Lookup& lookup)
-{
-  if (message.joint_constraints.empty() && message.position_constraints.empty() &&
-      message.orientation_constraints.empty())
-    return {};
-  if (group.empty())
-    throw Error("path_constraints need the group that moves; give `group`");
-  PoseReader reader(scene, state, lookup);
-  ConstraintFrames frames = framesOf(reader, scene, group);
-  const std::vector<int>& moved = scene.robot->group(group).moved_links;
-  frames.pose = [&, of_reader = frames.pose](const StampedFrame& frame)
-  {
-    const auto located = locateFrame(scene, frame.name);
-    if (located && located->link >= 0 && std::binary_search(moved.begin(), moved.end(), located->link))
-      throw Error("path_constraints: the frame '" + frame.name + "' moves with the group '" + group +
-                  "'; give the constraints in a frame that stands still during the motion");
-    return of_reader(frame);
-  };
-  return constraintsFrom(message, *scene.robot, frames, "path_constraints");
 }
 
 void addRegions(const PlanMotion::Request& request, const PlanningScene& scene, const SceneStore::Lookup& lookup,
@@ -68,7 +37,7 @@ void addRegions(const PlanMotion::Request& request, const PlanningScene& scene, 
       query.goal_regions.push_back(
           reader.constraints(frame, request.goal_poses[i], tolerances, "goal_poses[" + std::to_string(i) + "]"));
   }
-  const ConstraintFrames frames = framesOf(reader, scene, request.group);
+  const ConstraintFrames frames = constraintFrames(reader, scene, request.group);
   for (std::size_t i = 0; i < request.goal_constraints.size(); ++i)
   {
     const std::string where = "goal_constraints[" + std::to_string(i) + "]";

@@ -15,10 +15,4 @@ bool hasGoalRegions(const PlanMotion::Request& request);
 /// and the start. `lookup`: finds frames that the scene does not have. Throws Error for a wrong request.
 void addRegions(const PlanMotion::Request& request, const PlanningScene& scene, const SceneStore::Lookup& lookup,
                 std::size_t max_goals, PlanningQuery& query);
-
-/// Constraints of a request that hold along motions of a group. `state`: where frames that move with the robot are;
-/// null if it is not known. Throws Error for a wrong message, and for a frame that the group moves.
-KinematicConstraints requestedPathConstraints(const Constraints& message, const PlanningScene& scene,
-                                              const std::string& group, const double* state,
-                                              const SceneStore::Lookup& lookup);
 }  // namespace gpu_planning_scene::core
