@@ -75,8 +75,9 @@ TEST(AnimatedBodies, BodiesThatThePathMovesAreInTheGivenState)
 TEST(AnimatedBodies, OnlyPosesChangeBetweenStates)
 {
   const PlanningScene scene = sceneWithTriangle();
-  MarkerArray before = animated(scene, -1.0, 100);
-  const MarkerArray after = animated(scene, 1.0, 100);
+  AnimatedBodies bodies(scene, scene.robot->group("drive"), {cartAt(scene, -1.0), cartAt(scene, 1.0)}, 100);
+  MarkerArray before = bodies.at(cartAt(scene, -1.0));
+  const MarkerArray after = bodies.at(cartAt(scene, 1.0));
   ASSERT_EQ(before.markers.size(), after.markers.size());
   for (std::size_t i = 0; i < before.markers.size(); ++i)
   {
