@@ -15,11 +15,11 @@ namespace
 using visualization_msgs::Marker;
 
 constexpr std::size_t kMaxGoals = 32;
-constexpr double kAxisLength = 0.1;     // metres
-constexpr double kAxisWidth = 0.006;    // metres
-constexpr double kGoalDiameter = 0.03;  // metres
-constexpr double kReasonHeight = 0.04;  // metres, of a capital letter
-constexpr double kReached = 1e-6;       // metres and radians: the planner rounds its states
+constexpr double kAxisLength = 0.1;      // metres
+constexpr double kAxisWidth = 0.006;     // metres
+constexpr double kGoalDiameter = 0.03;   // metres
+constexpr double kReasonHeight = 0.025;  // metres, of a capital letter
+constexpr double kReached = 1e-6;        // metres and radians: the planner rounds its states
 constexpr BodyColor kReachedGoal{0, 170, 60, 255};
 constexpr BodyColor kOtherGoal{130, 130, 130, 255};
 constexpr BodyColor kInvalidGoal{220, 30, 30, 255};
