@@ -13,7 +13,9 @@
 #include "node/follow/follow_options.h"
 #include "node/follow/leader_scene.h"
 #include "node/kinematics/kinematics_services.h"
+#include "node/markers/animation_publisher.h"
 #include "node/markers/marker_publisher.h"
+#include "node/markers/path_publisher.h"
 #include "node/moveit/moveit_interface.h"
 #include "node/parameters/node_parameters.h"
 #include "node/parameters/setup.h"
@@ -90,7 +92,13 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
                         std::chrono::seconds(1), server_options.max_waiting_requests},
                        look_up);
   PathPublisher paths(own, options.marker_rate, options.marker_triangles);
-  PlanService plans(own, store, look_up, make_cpu_checker, memory, paths, plan_options);
+  AnimationPublisher animation(own, options.animation_rate, options.marker_triangles);
+  const PlanService::Show show_plan = [&](const std::shared_ptr<const ShownPlan>& plan)
+  {
+    paths.show(plan);
+    animation.show(plan);
+  };
+  PlanService plans(own, store, look_up, make_cpu_checker, memory, show_plan, plan_options);
   plans.prepare();
   KinematicsServices kinematics(
       store, look_up, make_cpu_checker,

@@ -119,7 +119,7 @@ class Configuration(unittest.TestCase):
         manager = made["Visualization Manager"]
         self.assertEqual("panda_base", manager["Global Options"]["Fixed Frame"])
         topics = [display.get("Marker Topic") for display in manager["Displays"] if "Marker Topic" in display]
-        self.assertEqual(["/cell/scene/markers", "/cell/scene/plan_markers"], topics)
+        self.assertEqual([f"/cell/scene/{name}" for name in ("markers", "plan_markers", "plan_animation")], topics)
         self.assertEqual({"X": 1.0, "Y": 2.0, "Z": 3.0}, manager["Views"]["Current"]["Focal Point"])
         self.assertEqual(4.0, manager["Views"]["Current"]["Distance"])
 

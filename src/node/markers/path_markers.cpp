@@ -6,6 +6,7 @@
 #include <set>
 
 #include "gpu_planning_scene/interpolation.h"
+#include "node/markers/moved_bodies.h"
 #include "node/markers/shape_markers.h"
 #include "node/messages/pose_messages.h"
 #include "render/renderer.h"
@@ -26,7 +27,6 @@ constexpr std::size_t kMaxGhosts = 4;
 constexpr BodyColor kStartColor{70, 120, 255, 90};
 constexpr BodyColor kGoalColor{50, 210, 100, 90};
 constexpr std::uint8_t kFaint = 40;     // opacity of the ghosts between start and goal
-constexpr double kUnmoved = 1e-3;       // metres, or entries of a rotation
 constexpr double kLetterHeight = 0.05;  // of the size of the moved bodies
 constexpr BodyColor kStartText{20, 60, 200, 255};
 constexpr BodyColor kGoalText{0, 120, 40, 255};
@@ -83,24 +83,6 @@ std::vector<int> lastLinks(const RobotModel& robot, const Group& group)
     ends.insert(siblings > 1 && parent >= 0 ? parent : link);
   }
   return {ends.begin(), ends.end()};
-}
-
-/// The bodies that the group moves and that are not at the same place in all of the given poses.
-std::vector<std::size_t> movedBodies(const PlanningScene& scene, const Group& group,
-                                     const std::vector<std::vector<Eigen::Isometry3d>>& poses)
-{
-  std::vector<std::size_t> bodies(group.moved_links.begin(), group.moved_links.end());
-  for (std::size_t i = 0; i < scene.attached.size(); ++i)
-    if (std::count(group.moved_links.begin(), group.moved_links.end(), scene.attached[i].link) != 0)
-      bodies.push_back(scene.robot->links().size() + scene.objects.size() + i);
-  const auto stays = [&poses](std::size_t body)
-  {
-    return std::all_of(poses.begin(), poses.end(),
-                       [&](const std::vector<Eigen::Isometry3d>& at)
-                       { return (at[body].matrix() - poses[0][body].matrix()).cwiseAbs().maxCoeff() < kUnmoved; });
-  };
-  bodies.erase(std::remove_if(bodies.begin(), bodies.end(), stays), bodies.end());
-  return bodies;
 }
 
 BodyColor between(const BodyColor& from, const BodyColor& to, double share)

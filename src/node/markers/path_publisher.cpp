@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "node/markers/goal_markers.h"
 #include "node/markers/path_markers.h"
 
 namespace gpu_planning_scene::core
@@ -13,24 +14,26 @@ PathPublisher::PathPublisher(ros::NodeHandle& own, double rate, std::size_t max_
 {
 }
 
-void PathPublisher::show(std::shared_ptr<const PlanningScene> scene, std::vector<std::vector<double>> waypoints,
-                         const Group& group)
+void PathPublisher::show(std::shared_ptr<const ShownPlan> plan)
 {
-  auto path = std::make_unique<const Path>(Path{std::move(scene), std::move(waypoints), group});
   const std::lock_guard<std::mutex> lock(mutex_);
-  next_ = std::move(path);
+  next_ = std::move(plan);
 }
 
 void PathPublisher::publish()
 {
   if (publisher_.getNumSubscribers() == 0)
     return;
-  std::unique_ptr<const Path> path;
+  std::shared_ptr<const ShownPlan> plan;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    path = std::move(next_);
+    plan = std::move(next_);
   }
-  if (path)
-    publisher_.publish(pathMarkers(*path->scene, path->waypoints, path->group, max_triangles_));
+  if (!plan)
+    return;
+  visualization_msgs::MarkerArray array = pathMarkers(*plan->scene, plan->waypoints, plan->group, max_triangles_);
+  for (visualization_msgs::Marker& marker : goalMarkers(*plan))
+    array.markers.push_back(std::move(marker));
+  publisher_.publish(array);
 }
 }  // namespace gpu_planning_scene::core

@@ -51,6 +51,9 @@ class ShapeMarkers
 
   std::size_t trianglesDrawn() const { return drawn_; }
 
+  /// The number of markers so far, with the one that deletes.
+  std::size_t size() const { return array_.markers.size(); }
+
   visualization_msgs::MarkerArray take() { return std::move(array_); }
 
  private:

@@ -244,6 +244,7 @@ ServiceOptions serviceOptionsFromParameters(const ros::NodeHandle& own)
   options.max_memory = countParameter(own, "limits/memory", 0, 0, std::size_t{1} << 52);
   options.max_waiting_changes = countParameter(own, "limits/waiting_changes", options.max_waiting_changes, 1, kNoLimit);
   options.marker_rate = positiveParameter(own, "markers/rate", options.marker_rate);
+  options.animation_rate = lengthParameter(own, "markers/animation_rate", options.animation_rate);
   options.marker_triangles = countParameter(own, "markers/triangles", options.marker_triangles, 0, kNoLimit);
   options.cloud_topic = textParameter(own, "cloud/topic", options.cloud_topic);
   options.cloud_id = textParameter(own, "cloud/id", options.cloud_id);

@@ -48,6 +48,7 @@ struct ServiceOptions
   std::uint32_t message_size = 256U << 20;   ///< bytes: ~limits/message_size
   std::size_t max_waiting_changes = 100000;  ///< queued changes from topics: ~limits/waiting_changes
   double marker_rate = 2.0;                  ///< per second: ~markers/rate
+  double animation_rate = 10.0;              ///< per second; 0: none: ~markers/animation_rate
   std::size_t marker_triangles = 500000;     ///< ~markers/triangles
   std::string cloud_topic = "cloud";         ///< ~cloud/topic
   std::string cloud_id = "cloud";            ///< id of the clouds' object: ~cloud/id

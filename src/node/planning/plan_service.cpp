@@ -74,12 +74,12 @@ auto asRequestError(const Work& work)
 }  // namespace
 
 PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, SceneStore::Lookup lookup,
-                         CheckServer::MakeChecker make_checker, const MemoryGuard& memory, PathPublisher& paths,
+                         CheckServer::MakeChecker make_checker, const MemoryGuard& memory, Show show,
                          const PlanServiceOptions& options)
   : store_(store),
     lookup_(std::move(lookup)),
     memory_(memory),
-    paths_(paths),
+    show_(std::move(show)),
     options_(options),
     configs_(PlannerConfigs::fromParameters(own)),
     admission_(options.at_once, options.max_waiting),
@@ -223,7 +223,7 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
   memory_.require();
   const Admission::Pass pass(admission_);
   const Task task = asRequestError([&] { return taskOf(request); });
-  const Answer answer = plan(task);
+  Answer answer = plan(task);
   const PlanningResult& result = answer.plan;
   if (stopping_)
     throw Error("shutting down: the request was not answered");
@@ -246,6 +246,8 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
     response.checking_time += answer.timed->checking_seconds;
     response.states_checked += answer.timed->states_checked;
   }
-  paths_.show(task.scene, result.waypoints, group);
+  show_(std::make_shared<const ShownPlan>(ShownPlan{task.scene, group, task.query.start, task.query.goal_regions,
+                                                    result.status, result.message, std::move(answer.plan.waypoints),
+                                                    std::move(answer.timed)}));
 }
 }  // namespace gpu_planning_scene::core

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include <ros/node_handle.h>
 
-#include "node/markers/path_publisher.h"
+#include "node/markers/shown_plan.h"
 #include "node/planning/ompl_log.h"
 #include "node/planning/plan_request.h"
 #include "planners/planner_configs.h"
@@ -18,17 +19,20 @@
 
 namespace gpu_planning_scene::core
 {
-/// Answers ~plan, and shows the last path with a PathPublisher. Throws nothing: the response has the error. Several
+/// Answers ~plan, and hands each plan over to RViz's markers. Throws nothing: the response has the error. Several
 /// requests are planned at the same time, each with its own checker; further requests wait. Checkers are kept for later
 /// requests. Thread-safe.
 class PlanService
 {
  public:
+  using Show = std::function<void(std::shared_ptr<const ShownPlan>)>;
+
   /// `make_checker`: makes checkers whose errors are those of requests. Each check should begin on the caller's thread,
   /// because a planner checks some hundred states at a time. `lookup`: finds the frames of a request's scene_diff that
-  /// the scene does not have. Throws Error for wrong values in ~planners.
+  /// the scene does not have. `show`: gets each plan, on the thread of its request. Throws Error for wrong values in
+  /// ~planners.
   PlanService(ros::NodeHandle& own, const SceneStore& store, SceneStore::Lookup lookup,
-              CheckServer::MakeChecker make_checker, const MemoryGuard& memory, PathPublisher& paths,
+              CheckServer::MakeChecker make_checker, const MemoryGuard& memory, Show show,
               const PlanServiceOptions& options);
 
   /// Loads the planners that the groups have by default, and prepares a checker for each group, so that the first
@@ -65,7 +69,7 @@ class PlanService
   const SceneStore& store_;
   const SceneStore::Lookup lookup_;
   const MemoryGuard& memory_;
-  PathPublisher& paths_;
+  const Show show_;
   const PlanServiceOptions options_;
   const PlannerConfigs configs_;
   const OmplLog log_;

@@ -1,6 +1,7 @@
 // ~plan finds motions over ROS with any planner, also for two clients at once, and reports errors of a request. The
 // node has planners.yaml, plan_parameters.yaml and the slider robot.
 
+#include <algorithm>
 #include <cmath>
 #include <thread>
 
@@ -448,6 +449,58 @@ TEST_F(Planning, DrawsThePath)
   EXPECT_NEAR(of("path")[0].points.back().x, 1.0, 1e-9);
   ASSERT_EQ(of("waypoints").size(), 1u);
   EXPECT_EQ(of("waypoints")[0].points.size(), 2 * response.trajectory.points.size());
+}
+
+TEST_F(Planning, ShowsTheGoalPoseAndTheMotion)
+{
+  ros::NodeHandle node;
+  visualization_msgs::Marker goal;
+  std::vector<double> positions;  // of the cart
+  const ros::Subscriber plans = node.subscribe<visualization_msgs::MarkerArray>(
+      name("plan_markers"), 10,
+      [&goal](const visualization_msgs::MarkerArrayConstPtr& message)
+      {
+        for (const visualization_msgs::Marker& marker : message->markers)
+          if (marker.ns == "goals")
+            goal = marker;
+      });
+  const ros::Subscriber animation = node.subscribe<visualization_msgs::MarkerArray>(
+      name("plan_animation"), 10,
+      [&positions](const visualization_msgs::MarkerArrayConstPtr& message)
+      {
+        if (message->markers.at(0).action == visualization_msgs::Marker::ADD)
+          positions.push_back(message->markers[0].pose.position.x);
+      });
+  const auto wait = [](const auto& condition)
+  {
+    for (int i = 0; i < 200 && !condition(); ++i)
+    {
+      ros::spinOnce();
+      ros::WallDuration(0.05).sleep();
+    }
+  };
+  wait([&] { return plans.getNumPublishers() > 0 && animation.getNumPublishers() > 0; });
+  PlanMotion::Request wanted = request();
+  wanted.goal_names.clear();
+  wanted.goals.clear();
+  wanted.goal_link = "cart";
+  wanted.goal_poses.resize(1);
+  wanted.goal_poses[0].pose.position.x = 0.9;
+  wanted.goal_poses[0].pose.orientation.w = 1.0;
+  const Response response = plan(wanted);
+  ASSERT_TRUE(response.success) << response.message;
+  positions.clear();
+  const auto is_at = [&](double x)
+  {
+    return std::any_of(
+        positions.begin(), positions.end(), [x](double position) { return std::abs(position - x) < 0.01; });
+  };
+  wait([&] { return goal.ns == "goals" && is_at(-1.0) && is_at(0.9); });
+  EXPECT_NEAR(goal.pose.position.x, 0.9, 1e-9);
+  EXPECT_GT(goal.color.g, 2.0F * goal.color.r) << "green: the path ends there";
+  EXPECT_TRUE(is_at(0.9)) << "the end of the path";
+  EXPECT_TRUE(std::any_of(positions.begin(), positions.end(), [](double x) { return x > -0.9 && x < 0.8; }))
+      << "between the start and the goal";
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
