@@ -85,10 +85,12 @@ Judgement judge(const PlanningProblem& problem, StateChecker& checker, const std
   Judgement judgement;
   for (std::size_t i = 1; i < rows.size(); ++i)
   {
-    const double parts = segmentCount(robot, rows[i - 1].data(), rows[i].data(), {kFiner, kFiner});
-    for (double part = 0.0; part <= parts; ++part)
+    const auto parts =
+        static_cast<std::size_t>(segmentCount(robot, rows[i - 1].data(), rows[i].data(), {kFiner, kFiner}));
+    for (std::size_t part = 0; part <= parts; ++part)
     {
-      interpolate(robot, rows[i - 1].data(), rows[i].data(), part / parts, state.data());
+      interpolate(robot, rows[i - 1].data(), rows[i].data(), static_cast<double>(part) / static_cast<double>(parts),
+                  state.data());
       robot.linkPoses(state.data(), poses.data());
       // The Euler angles of a rotation Rx(a) Ry(b) Rz(c), from its third column.
       const Eigen::Vector3d up = poses[static_cast<std::size_t>(tip)].linear().col(2);

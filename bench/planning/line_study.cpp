@@ -114,11 +114,11 @@ void judge(const Arm& arm, int tip, StateChecker& checker, const CartesianQuery&
     const double* b = path.rows[i].data();
     for (const JointTravel& travel : jointTravel(robot, a, b))
       findings.largest_joint_step = std::max({findings.largest_joint_step, travel.angle, travel.length});
-    const double parts = std::max(10.0, segmentCount(robot, a, b, {kFiner, kFiner}));
+    const auto parts = static_cast<std::size_t>(std::max(10.0, segmentCount(robot, a, b, {kFiner, kFiner})));
     std::vector<double> state(robot.variables().size());
-    for (double part = 0.0; part <= parts; ++part)
+    for (std::size_t part = 0; part <= parts; ++part)
     {
-      interpolate(robot, a, b, part / parts, state.data());
+      interpolate(robot, a, b, static_cast<double>(part) / static_cast<double>(parts), state.data());
       findings.largest_deviation =
           std::max(findings.largest_deviation, distanceFrom(tipPose(robot, tip, state.data()).translation(), from, to));
       dense.insert(dense.end(), state.begin(), state.end());

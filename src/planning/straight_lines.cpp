@@ -33,8 +33,8 @@ StraightLines::StraightLines(const std::vector<Eigen::Isometry3d>& poses, double
     const double count = std::max(
         {1.0, std::ceil(distance / max_step), std::ceil(angleBetween(poses[i - 1], poses[i]) / max_rotation_step)});
     lines_.push_back({poses[i - 1], poses[i], at, at + count});
-    for (double step = 1.0; step <= count; ++step)
-      steps_.push_back(at + step);
+    for (std::size_t step = 1; step <= static_cast<std::size_t>(count); ++step)
+      steps_.push_back(at + static_cast<double>(step));
     at += count;
   }
 }

@@ -79,11 +79,12 @@ class Lines : public testing::Test
     std::vector<double> state(robot.variables().size());
     for (std::size_t i = 1; i < path.rows.size(); ++i)
     {
-      const double parts =
-          std::max(10.0, segmentCount(robot, path.rows[i - 1].data(), path.rows[i].data(), {0.002, 0.002}));
-      for (double part = 0.0; part <= parts; ++part)
+      const auto parts = static_cast<std::size_t>(
+          std::max(10.0, segmentCount(robot, path.rows[i - 1].data(), path.rows[i].data(), {0.002, 0.002})));
+      for (std::size_t part = 0; part <= parts; ++part)
       {
-        interpolate(robot, path.rows[i - 1].data(), path.rows[i].data(), part / parts, state.data());
+        interpolate(robot, path.rows[i - 1].data(), path.rows[i].data(),
+                    static_cast<double>(part) / static_cast<double>(parts), state.data());
         look(state);
       }
     }

@@ -120,10 +120,12 @@ class PoseGoals : public testing::Test
     std::vector<double> state(robot_->variables().size());
     for (std::size_t i = 1; i < rows.size(); ++i)
     {
-      const double parts = segmentCount(*robot_, rows[i - 1].data(), rows[i].data(), {0.002, 0.002});
-      for (double part = 0.0; part <= parts; ++part)
+      const auto parts =
+          static_cast<std::size_t>(segmentCount(*robot_, rows[i - 1].data(), rows[i].data(), {0.002, 0.002}));
+      for (std::size_t part = 0; part <= parts; ++part)
       {
-        interpolate(*robot_, rows[i - 1].data(), rows[i].data(), part / parts, state.data());
+        interpolate(*robot_, rows[i - 1].data(), rows[i].data(), static_cast<double>(part) / static_cast<double>(parts),
+                    state.data());
         states.insert(states.end(), state.begin(), state.end());
       }
     }
