@@ -133,8 +133,8 @@ class ParabolaCheck
       if (steps >= static_cast<double>(options_.max_samples))
         valid_[i] = 0;
       else
-        for (double k = 0.0; k <= steps; ++k)
-          samples.push_back({i, k / steps * parabolas_[i].seconds, 0.0});
+        for (std::size_t k = 0; k <= static_cast<std::size_t>(steps); ++k)
+          samples.push_back({i, static_cast<double>(k) / steps * parabolas_[i].seconds, 0.0});
     }
     rejectUnlessFree(samples);
   }
@@ -186,8 +186,8 @@ class ParabolaCheck
       return;
     }
     const double half = 0.5 * parabolas_[parabola].seconds / count;
-    for (double k = 0.0; k < count; ++k)
-      pieces.push_back({parabola, (2.0 * k + 1.0) * half, half});
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+      pieces.push_back({parabola, static_cast<double>(2 * k + 1) * half, half});
   }
 
   const RobotModel& robot_;

@@ -32,8 +32,8 @@ class Points
     // If the point before is too near, the acceleration of the phase begins there, less than 1e-5 s too early.
     if (!points_.empty() && begin_ - points_.back().seconds < kLeastSpacing)
       points_.back().accelerations = rowOf(phase.acceleration);
-    for (double k = 0.0; k < count; ++k)
-      add(phase, k * phase.seconds / count);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+      add(phase, static_cast<double>(k) * phase.seconds / count);
     if (jumps)
       add(phase, phase.seconds - std::min(kBeforeJump, 0.5 * phase.seconds));
     begin_ += phase.seconds;
