@@ -228,6 +228,31 @@ TEST_F(Constraints, APoseAllowsItsTolerancesAndNoMore)
   EXPECT_TRUE(KinematicConstraints::pose(link("end"), frame, wanted, kLength, M_PI).orientations.empty());
 }
 
+TEST_F(Constraints, TheEndsOfARangeBelongToIt)
+{
+  const auto excess = [](const JointConstraint& range, double value)
+  {
+    KinematicConstraints constraints;
+    constraints.joints = {range};
+    return violationOf(constraints, nullptr, &value).joint;
+  };
+  for (int i = 0; i < 1000; ++i)
+  {
+    JointConstraint range{0, random(-2.5, 0.0), random(0.0, 2.5)};
+    for (const bool is_turn : {false, true})
+    {
+      range.is_turn = is_turn;
+      EXPECT_EQ(excess(range, range.lower), 0.0) << range.lower;
+      EXPECT_EQ(excess(range, range.upper), 0.0) << range.upper;
+      EXPECT_NEAR(excess(range, range.upper + 0.125), 0.125, 1e-12);
+    }
+    EXPECT_LT(excess(range, range.upper + 4.0 * M_PI), 1e-12);
+    EXPECT_NEAR(excess(range, range.lower - 2.0 * M_PI - 0.125), 0.125, 1e-12);
+    range.is_turn = false;
+    EXPECT_NEAR(excess(range, range.upper + 4.0 * M_PI), 4.0 * M_PI, 1e-12);
+  }
+}
+
 TEST_F(Constraints, TheViolationIsDescribedInWords)
 {
   EXPECT_EQ((ConstraintViolation{0.25, 0.1, 0.0}).text(),
