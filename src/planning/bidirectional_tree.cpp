@@ -34,6 +34,10 @@ constexpr std::size_t kPiecesBetweenRoots = 32;
 // A projection that moves a state by more than this part of the range has left the neighbourhood of its motion.
 constexpr double kLongestProjected = 2.0;
 
+// A projected step that comes nearer to the target by less than this part of the range would only fill the tree along
+// the ends of the tolerances.
+constexpr double kLeastProgress = 0.1;
+
 // Draws of a random state within the largest length. If that is little more than the distance of the roots, few states
 // are within it, and the last draw is taken.
 constexpr std::size_t kDrawsWithinLength = 128;
@@ -103,7 +107,7 @@ void BidirectionalTree::addProjected(const MotionValidator& validator, const omp
     if (!validator.project(state))
       return;
     const double rest = information_->distance(state, to);
-    if (rest >= distance || information_->distance(last, state) > kLongestProjected * range)
+    if (rest > distance - kLeastProgress * range || information_->distance(last, state) > kLongestProjected * range)
       return;
     attempt.states.push_back(state);
     last = state;

@@ -32,6 +32,10 @@ constexpr double kAccuracy = 0.01;
 // A step is halved this many times at most: to less than a hundredth.
 constexpr int kMostHalvings = 7;
 
+// The path ends if it needs more rows than these: each of the steps needs so many halvings that memory could run out.
+constexpr std::size_t kRowsPerStep = 10;
+constexpr std::size_t kMoreRows = 1000;
+
 // Samples of the deviation within a step. It is the largest near the middle.
 constexpr std::array<double, 3> kSamples = {0.25, 0.5, 0.75};
 
@@ -74,7 +78,10 @@ class Follower
 {
  public:
   Follower(std::shared_ptr<const RobotModel> robot, const CartesianQuery& query)
-    : robot_(std::move(robot)), query_(query), lines_(posesOf(*robot_, query), query.max_step, query.max_rotation_step)
+    : robot_(std::move(robot)),
+      query_(query),
+      lines_(posesOf(*robot_, query), {query.max_step, query.max_rotation_step},
+             {query.max_deviation, query.max_rotation_deviation})
   {
     rows_.push_back(query.start);
     ats_.push_back(0.0);
@@ -136,6 +143,8 @@ class Follower
     }
     if (halvings == kMostHalvings)
       return fault;
+    if (rows_.size() > kRowsPerStep * lines_.steps().size() + kMoreRows)
+      return "the joints need more than " + std::to_string(rows_.size()) + " states to follow the lines; " + fault;
     const double middle = 0.5 * (ats_.back() + at);
     if (std::string first = advance(middle, halvings + 1); !first.empty())
       return first;
@@ -174,10 +183,10 @@ class Follower
     {
       interpolate(*robot_, rows_.back().data(), row.data(), sample, state_.data());
       kinematics.chains().computePoses(state_.data(), workspace_);
-      const StraightLines::Deviation deviation =
+      const StraightLines::Lengths deviation =
           lines_.deviation(workspace_.poses[static_cast<std::size_t>(query_.link)] * query_.frame, ats_.back(), at);
       // The samples need not hit the largest deviation.
-      if (deviation.distance > 0.5 * query_.max_deviation || deviation.angle > 0.5 * query_.max_rotation_deviation)
+      if (deviation.metres > 0.5 * query_.max_deviation || deviation.radians > 0.5 * query_.max_rotation_deviation)
         return true;
     }
     return false;
@@ -192,6 +201,12 @@ class Follower
   KinematicChains::Workspace workspace_;
 };
 
+/// ": 0.1 m from the wanted position"; empty without a violation.
+std::string nearText(const ConstraintViolation& violation)
+{
+  return violation.isNone() ? "" : ": there, the state is " + violation.text();
+}
+
 /// Number of motions at the beginning of the path that are valid, and the fault of the next one.
 std::pair<std::size_t, std::string> validMotions(const PlanningScene& scene,
                                                  const std::shared_ptr<StateChecker>& checker,
@@ -199,16 +214,23 @@ std::pair<std::size_t, std::string> validMotions(const PlanningScene& scene,
                                                  const std::vector<std::vector<double>>& rows,
                                                  const std::function<bool()>& stop, std::uint64_t& states_checked)
 {
-  const std::size_t count = rows.size() - 1;
+  std::size_t count = rows.size() - 1;
+  std::string fault;
   if (!query.path_constraints.isEmpty())
   {
     const PathConstraints constraints(scene.robot, query.group, query.path_constraints);
-    for (std::size_t i = 0; i < count; ++i)
-      if (!constraints.holdAlong(rows[i].data(), rows[i + 1].data()))
-        return {i, "the path constraints are not proven to hold: " + constraints.violation(rows[i + 1].data()).text()};
+    for (std::size_t i = 0; i < count && fault.empty(); ++i)
+    {
+      if (stop && stop())
+        fault = "the search was stopped";
+      else if (!constraints.holdAlong(rows[i].data(), rows[i + 1].data()))
+        fault = "the path constraints are not proven to hold on" + nearText(constraints.violation(rows[i + 1].data()));
+      if (!fault.empty())
+        count = i;
+    }
   }
   if (!query.check_collisions || count == 0)
-    return {count, ""};
+    return {count, fault};
   std::vector<double> starts;
   std::vector<double> ends;
   for (std::size_t i = 0; i < count; ++i)
@@ -225,7 +247,7 @@ std::pair<std::size_t, std::string> validMotions(const PlanningScene& scene,
       return {i, verdicts[i].colliding == kNoPair ? std::string("a motion is not proven free")
                                                   : "collision of " + scene.bodyName(verdicts[i].colliding[0]) +
                                                         " and " + scene.bodyName(verdicts[i].colliding[1])};
-  return {count, ""};
+  return {count, fault};
 }
 }  // namespace
 

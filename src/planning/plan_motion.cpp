@@ -50,7 +50,11 @@ void validateQuery(const PlanningScene& scene, const PlanningQuery& query)
   for (std::size_t i = 0; i < query.goals.size(); ++i)
     validateRow(*scene.robot, query.goals[i], "goal " + std::to_string(i));
   for (std::size_t i = 0; i < query.goal_regions.size(); ++i)
+  {
     query.goal_regions[i].validate(*scene.robot, "goal region " + std::to_string(i));
+    if (query.goal_regions[i].isEmpty())
+      throw Error("goal region " + std::to_string(i) + " has no constraint; give at least one");
+  }
   query.path_constraints.validate(*scene.robot, "the path constraints");
   constexpr double kMaxSeconds = 1e9;  // OMPL's clock counts nanoseconds in integers
   if (!(query.seconds > 0.0 && query.seconds <= kMaxSeconds))
@@ -75,7 +79,7 @@ void requireMotionOfGroup(const GroupStateSpace& space, const PlanningQuery& que
     }
 }
 
-/// The goal regions, with the path constraints, for the variables that the space plans for and within its ranges.
+/// The goal regions, with the path constraints, within the ranges of the space.
 std::vector<KinematicConstraints> regionsOf(const PlanningQuery& query, const GroupStateSpace& space)
 {
   const RobotModel& robot = *space.robot();
@@ -83,10 +87,6 @@ std::vector<KinematicConstraints> regionsOf(const PlanningQuery& query, const Gr
   for (KinematicConstraints& region : regions)
   {
     region.append(query.path_constraints);
-    for (const int variable : space.group().variables)
-      if (std::find(space.variables().begin(), space.variables().end(), variable) == space.variables().end())
-        region.addJoint(robot, variable, query.start[static_cast<std::size_t>(variable)],
-                        query.start[static_cast<std::size_t>(variable)]);
     for (std::size_t i = 0; query.workspace && i < space.variables().size(); ++i)
       if (const auto [lower, upper] = space.ranges()[i]; std::isfinite(lower) && std::isfinite(upper))
         region.addJoint(robot, space.variables()[i], lower, upper);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gpu_planning_scene/error.h"
+#include "model/math_constants.h"
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -24,15 +27,20 @@ Eigen::Isometry3d interpolated(const Eigen::Isometry3d& from, const Eigen::Isome
 }
 }  // namespace
 
-StraightLines::StraightLines(const std::vector<Eigen::Isometry3d>& poses, double max_step, double max_rotation_step)
+StraightLines::StraightLines(const std::vector<Eigen::Isometry3d>& poses, const Lengths& max_step, const Lengths& unit)
+  : unit_(unit)
 {
+  constexpr double kMostSteps = 1e6;
   double at = 0.0;
   for (std::size_t i = 1; i < poses.size(); ++i)
   {
+    const Eigen::AngleAxisd rotation(poses[i - 1].linear().transpose() * poses[i].linear());
     const double distance = (poses[i].translation() - poses[i - 1].translation()).norm();
-    const double count = std::max(
-        {1.0, std::ceil(distance / max_step), std::ceil(angleBetween(poses[i - 1], poses[i]) / max_rotation_step)});
-    lines_.push_back({poses[i - 1], poses[i], at, at + count});
+    const double count =
+        std::max({1.0, std::ceil(distance / max_step.metres), std::ceil(rotation.angle() / max_step.radians)});
+    if (!(at + count <= kMostSteps))
+      throw Error("the lines have more than 1e6 steps; take larger steps, or fewer waypoints");
+    lines_.push_back({poses[i - 1], poses[i], at, at + count, rotation});
     for (std::size_t step = 1; step <= static_cast<std::size_t>(count); ++step)
       steps_.push_back(at + static_cast<double>(step));
     at += count;
@@ -51,23 +59,28 @@ Eigen::Isometry3d StraightLines::pose(double at) const
   return interpolated(line.from, line.to, (at - line.begin) / (line.end - line.begin));
 }
 
-StraightLines::Deviation StraightLines::deviation(const Eigen::Isometry3d& pose, double begin, double end) const
+StraightLines::Lengths StraightLines::deviation(const Eigen::Isometry3d& pose, double begin, double end) const
 {
   const Line& line = lineAt(end);
   const auto fraction_of = [&line](double at) { return (at - line.begin) / (line.end - line.begin); };
+  // The nearest fraction by position and the one by orientation count by the squares of the line's two lengths.
   const Eigen::Vector3d direction = line.to.translation() - line.from.translation();
-  const double length = direction.squaredNorm();
+  const double by_position = direction.squaredNorm() / (unit_.metres * unit_.metres);
+  const double by_orientation = line.rotation.angle() * line.rotation.angle() / (unit_.radians * unit_.radians);
   double fraction = fraction_of(0.5 * (begin + end));
-  if (length > 0.0)
-    fraction = (pose.translation() - line.from.translation()).dot(direction) / length;
+  if (by_position + by_orientation > 0.0)
+  {
+    const double metres = (pose.translation() - line.from.translation()).dot(direction);
+    const Eigen::Quaterniond turned(line.from.linear().transpose() * pose.linear());
+    const double radians = 2.0 * std::atan2(turned.vec().dot(line.rotation.axis()), turned.w());
+    const double middle = fraction * line.rotation.angle();
+    const double near = middle + std::remainder(radians - middle, 2.0 * kPi);
+    fraction =
+        (metres / (unit_.metres * unit_.metres) + near * line.rotation.angle() / (unit_.radians * unit_.radians)) /
+        (by_position + by_orientation);
+  }
   const Eigen::Isometry3d nearest =
       interpolated(line.from, line.to, std::clamp(fraction, fraction_of(begin), fraction_of(end)));
-  const double distance = (pose.translation() - nearest.translation()).norm();
-  if (length > 0.0)
-    return {distance, angleBetween(pose, nearest)};
-  // A line without length: the orientation of least difference within the step.
-  const double whole = angleBetween(interpolated(line.from, line.to, fraction_of(begin)),
-                                    interpolated(line.from, line.to, fraction_of(end)));
-  return {distance, std::max(0.0, angleBetween(pose, nearest) - 0.5 * whole)};
+  return {(pose.translation() - nearest.translation()).norm(), angleBetween(pose, nearest)};
 }
 }  // namespace gpu_planning_scene::core

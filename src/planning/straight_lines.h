@@ -11,22 +11,24 @@ namespace gpu_planning_scene::core
 class StraightLines
 {
  public:
-  /// `poses`: the first pose and the ends of the lines.
-  StraightLines(const std::vector<Eigen::Isometry3d>& poses, double max_step, double max_rotation_step);
+  /// Lengths of a translation and of a rotation.
+  struct Lengths
+  {
+    double metres;
+    double radians;
+  };
+
+  /// `poses`: the first pose and the ends of the lines. `max_step`: of each step. `unit`: lengths that count the same
+  /// for deviation(). Throws Error for more than a million steps.
+  StraightLines(const std::vector<Eigen::Isometry3d>& poses, const Lengths& max_step, const Lengths& unit);
 
   /// The ends of all steps, ascending, without 0. No step crosses the end of a line.
   const std::vector<double>& steps() const { return steps_; }
 
   Eigen::Isometry3d pose(double at) const;
 
-  /// Distances of a pose from the lines' pose between `begin` and `end`, which belong to one line: of its origin from
-  /// the line, and of its orientation from that at the nearest point of the line.
-  struct Deviation
-  {
-    double distance;  ///< metres
-    double angle;     ///< radians
-  };
-  Deviation deviation(const Eigen::Isometry3d& pose, double begin, double end) const;
+  /// The difference of a pose from the nearest pose between `begin` and `end`, which belong to one line.
+  Lengths deviation(const Eigen::Isometry3d& pose, double begin, double end) const;
 
  private:
   struct Line
@@ -35,9 +37,11 @@ class StraightLines
     Eigen::Isometry3d to;
     double begin;  // in steps
     double end;
+    Eigen::AngleAxisd rotation;  // from `from` to `to`
   };
   const Line& lineAt(double at) const;
 
+  const Lengths unit_;
   std::vector<Line> lines_;
   std::vector<double> steps_;
 };

@@ -58,6 +58,12 @@ constexpr bool kHasParameterization = false;
 template <class Message>
 constexpr bool kHasParameterization<Message, std::void_t<decltype(Message::parameterization)>> = true;
 
+/// Whether a region of a message may have meshes. Those of this package do not.
+template <class Volume, class = void>
+constexpr bool kHasMeshes = false;
+template <class Volume>
+constexpr bool kHasMeshes<Volume, std::void_t<decltype(Volume::meshes)>> = true;
+
 template <class Primitive>
 std::variant<Sphere, Box> regionOf(const Primitive& primitive, const std::string& where)
 {
@@ -73,6 +79,9 @@ template <class Message>
 PositionConstraint positionFrom(const Message& message, const ConstraintFrames& frames, const std::string& where)
 {
   const auto& volume = message.constraint_region;
+  if constexpr (kHasMeshes<std::decay_t<decltype(volume)>>)
+    if (!volume.meshes.empty())
+      throw Error(where + ": the region has a mesh; use a box or a sphere");
   if (volume.primitives.size() != 1 || volume.primitive_poses.size() != 1)
     throw Error(where + ": the region has " + std::to_string(volume.primitives.size()) + " primitives and " +
                 std::to_string(volume.primitive_poses.size()) +

@@ -46,9 +46,16 @@ void advance(const DegreesOfFreedom& freedoms, const Eigen::VectorXd& step, doub
 
 void clampToLimits(const DegreesOfFreedom& freedoms, double* state)
 {
+  constexpr double kTurn = 2.0 * kPi;
   for (const DegreeOfFreedom& freedom : freedoms)
-    if (freedom.bounded)
-      state[freedom.variable] = std::clamp(state[freedom.variable], freedom.lower, freedom.upper);
+  {
+    double& value = state[freedom.variable];
+    if (!freedom.bounded || (value >= freedom.lower && value <= freedom.upper))
+      continue;
+    if (freedom.is_turn)
+      value -= kTurn * std::round((value - 0.5 * (freedom.lower + freedom.upper)) / kTurn);
+    value = std::clamp(value, freedom.lower, freedom.upper);
+  }
 }
 
 void turnTowards(const DegreesOfFreedom& freedoms, const double* wanted, double* state)

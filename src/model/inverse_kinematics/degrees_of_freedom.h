@@ -26,7 +26,7 @@ DegreesOfFreedom narrowed(DegreesOfFreedom freedoms, const std::vector<JointCons
 /// Moves a state by a step: one number per degree of freedom. Values beyond the limits become the limits.
 void advance(const DegreesOfFreedom& freedoms, const Eigen::VectorXd& step, double* state);
 
-/// Moves values beyond the limits to the limits.
+/// Moves values beyond the limits to the limits, angles by whole turns first.
 void clampToLimits(const DegreesOfFreedom& freedoms, double* state);
 
 /// Adds whole turns to angles, so that they are as near to `wanted` as their limits allow. Of the two quaternions of a

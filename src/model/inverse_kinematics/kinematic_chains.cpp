@@ -8,6 +8,18 @@
 
 namespace gpu_planning_scene::core
 {
+namespace
+{
+/// Whether the limits of a joint leave it a range.
+bool canMove(const RobotModel& robot, const Joint& joint)
+{
+  if (joint.first_variable < 0)
+    return false;
+  const Variable& variable = robot.variables()[static_cast<std::size_t>(joint.first_variable)];
+  return variableCount(joint.type) != 1 || !variable.bounded || variable.lower < variable.upper;
+}
+}  // namespace
+
 KinematicChains::KinematicChains(std::shared_ptr<const RobotModel> robot, const Group& group,
                                  const std::vector<int>& links)
   : robot_(std::move(robot))
@@ -45,7 +57,8 @@ KinematicChains::Chain KinematicChains::chainTo(int link, const Group& group)
   for (const int joint : joints)
   {
     const Joint& each = robot_->joints()[static_cast<std::size_t>(joint)];
-    if (!each.passive && std::binary_search(group.variables.begin(), group.variables.end(), each.first_variable))
+    if (!each.passive && canMove(*robot_, each) &&
+        std::binary_search(group.variables.begin(), group.variables.end(), each.first_variable))
       addMotions(each, chain.motions);
   }
   return chain;

@@ -130,13 +130,20 @@ void KinematicConstraints::addJoint(const RobotModel& robot, int variable, doubl
                                      return (joint.type == JointType::Continuous && joint.first_variable == variable) ||
                                             (joint.type == JointType::Planar && joint.first_variable + 2 == variable);
                                    });
-  joints.push_back({variable, lower, upper, is_turn});
+  // Ranges that differ by whole turns are equal.
+  const double turns = is_turn ? 2.0 * kPi * std::round(0.25 * (lower + upper) / kPi) : 0.0;
+  joints.push_back({variable, lower - turns, upper - turns, is_turn});
 }
 
 void KinematicConstraints::clampJoints(double* state) const
 {
   for (const JointConstraint& range : joints)
-    state[range.variable] = std::clamp(state[range.variable], range.lower, range.upper);
+  {
+    double& value = state[range.variable];
+    if (range.is_turn)
+      value -= 2.0 * kPi * std::round((value - 0.5 * (range.lower + range.upper)) / (2.0 * kPi));
+    value = std::clamp(value, range.lower, range.upper);
+  }
 }
 
 void KinematicConstraints::validate(const RobotModel& robot, const std::string& where) const

@@ -63,7 +63,7 @@ struct Wanted
 [[noreturn]] void refuse(const std::string& joint, const std::string& fault,
                          int code = MoveItErrorCodes::INVALID_GOAL_CONSTRAINTS)
 {
-  throw Refusal(code, "the goal constraint of joint '" + joint + "' " + fault);
+  throw Refusal(code, "the constraint of joint '" + joint + "' " + fault);
 }
 
 void validate(const moveit_msgs::JointConstraint& constraint)

@@ -77,7 +77,14 @@ core::KinematicConstraints kinematicConstraints(const moveit_msgs::Constraints& 
   try
   {
     core::KinematicConstraints constraints = core::constraintsFrom(poses, *robot.robot(), frames, where);
-    addJointRanges(message, *start.getRobotModel(), robot, constraints);
+    try
+    {
+      addJointRanges(message, *start.getRobotModel(), robot, constraints);
+    }
+    catch (const Refusal& refusal)
+    {
+      throw Refusal(code, where + ": " + refusal.what());
+    }
     constraints.validate(*robot.robot(), where);
     return constraints;
   }

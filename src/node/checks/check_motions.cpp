@@ -66,17 +66,19 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
         {
           const PathConstraints path(now.scene->robot, request.group, constraints);
           const std::size_t width = robot.variables().size();
-          for (std::size_t i = 0; i < count; ++i)
+          for (std::size_t i = 0; i < count && !stopping_; ++i)
             fulfils.push_back(path.holdAlong(&starts[i * width], &ends[i * width]) ? 1 : 0);
         }
+        if (stopping_)
+          throw shuttingDown();
         // The full states above serve to count the samples. For the check, the variables that the request does not name
         // come from the checked snapshot, which may be newer than `now`.
         job.states = std::move(given.starts);
         job.states.insert(job.states.end(), given.ends.begin(), given.ends.end());
         job.group = request.group;
         job.matrix = scene.matrix;
-        if (scene.is_changed)
-          job.scene = scene.now;
+        if (scene.is_changed || !fulfils.empty())
+          job.scene = scene.now;  // so that both verdicts are of the same states
         const CheckAnswer answer = answerOf(std::move(job));
         response.fulfils_constraints = fulfils;
         for (std::size_t i = 0; i < answer.motions.size(); ++i)

@@ -7,10 +7,15 @@
 
 namespace gpu_planning_scene::core
 {
-ConstraintFrames constraintFrames(PoseReader& reader, const PlanningScene& scene, const std::string& group)
+ConstraintFrames constraintFrames(PoseReader& reader, const PlanningScene& scene)
 {
   return {[&reader](const StampedFrame& frame) { return reader.frame(frame); },
-          [&scene, &group](const std::string& name) { return requestedFrame(scene, group, name); }};
+          [&scene](const std::string& name)
+          {
+            if (name.empty())
+              throw Error("link_name is empty; name a link, a carried object, or OBJECT/SUBFRAME");
+            return linkFrame(scene, name);
+          }};
 }
 
 KinematicConstraints requestedPathConstraints(const Constraints& message, const PlanningScene& scene,
@@ -23,7 +28,7 @@ KinematicConstraints requestedPathConstraints(const Constraints& message, const 
   if (group.empty())
     throw Error("path_constraints need the group that moves; give `group`");
   PoseReader reader(scene, state, lookup);
-  ConstraintFrames frames = constraintFrames(reader, scene, group);
+  ConstraintFrames frames = constraintFrames(reader, scene);
   const std::vector<int>& moved = scene.robot->group(group).moved_links;
   frames.pose = [&, of_reader = frames.pose](const StampedFrame& frame)
   {

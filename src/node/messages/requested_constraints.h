@@ -8,9 +8,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// The frames and links that constraints of a request name, as the reader finds them. An empty link is the last one of
-/// the group's chain. The arguments must outlive the result.
-ConstraintFrames constraintFrames(PoseReader& reader, const PlanningScene& scene, const std::string& group);
+/// The frames and links that constraints of a request name, as the reader finds them. The arguments must outlive the
+/// result.
+ConstraintFrames constraintFrames(PoseReader& reader, const PlanningScene& scene);
 
 /// Constraints of a request that hold along motions of a group. `state`: where frames that move with the robot are;
 /// null if it is not known. Throws Error for a wrong message, and for a frame that the group moves.

@@ -37,7 +37,7 @@ void addRegions(const PlanMotion::Request& request, const PlanningScene& scene, 
       query.goal_regions.push_back(
           reader.constraints(frame, request.goal_poses[i], tolerances, "goal_poses[" + std::to_string(i) + "]"));
   }
-  const ConstraintFrames frames = constraintFrames(reader, scene, request.group);
+  const ConstraintFrames frames = constraintFrames(reader, scene);
   for (std::size_t i = 0; i < request.goal_constraints.size(); ++i)
   {
     const std::string where = "goal_constraints[" + std::to_string(i) + "]";
