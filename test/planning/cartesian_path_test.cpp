@@ -170,13 +170,14 @@ TEST_F(Lines, EndAtAnObstacleThatIsNamed)
   const Arm& arm = arms_->front();
   use(arm);
   CartesianPath free_path;
-  do
+  for (int i = 0; i < 1000 && free_path.fraction < 1.0; ++i)
   {
     drawStart();
     query_.waypoints = {start()};
     query_.waypoints.front().translation() += randomVector(0.2);
     free_path = followLines(scene_, checker_, query_);
-  } while (free_path.fraction < 1.0);
+  }
+  ASSERT_EQ(1.0, free_path.fraction);
   auto blocked = std::make_shared<PlanningScene>(*scene_);
   WorldObject box;
   box.id = "box";
@@ -197,7 +198,7 @@ TEST_F(Lines, PassSeveralWaypoints)
 {
   use(arms_->front());
   CartesianPath path;
-  do
+  for (int i = 0; i < 1000 && path.fraction < 1.0; ++i)
   {
     drawStart();
     Eigen::Isometry3d first = start();
@@ -206,7 +207,8 @@ TEST_F(Lines, PassSeveralWaypoints)
     second.translation().x() += 0.05;
     query_.waypoints = {first, second, start()};
     path = followLines(scene_, checker_, query_);
-  } while (path.fraction < 1.0);
+  }
+  ASSERT_EQ(1.0, path.fraction);
   for (const Eigen::Isometry3d& waypoint : query_.waypoints)
   {
     double least = 1.0;
@@ -220,13 +222,14 @@ TEST_F(Lines, EndWherePathConstraintsEnd)
 {
   use(arms_->front());
   CartesianPath path;
-  do
+  for (int i = 0; i < 1000 && path.fraction < 1.0; ++i)
   {
     drawStart();
     query_.waypoints = {start()};
     query_.waypoints.front().translation().z() += 0.1;
     path = followLines(scene_, checker_, query_);
-  } while (path.fraction < 1.0);
+  }
+  ASSERT_EQ(1.0, path.fraction);
   PositionConstraint below;
   below.link = tip_;
   below.pose.translation() = start().translation();
@@ -234,7 +237,77 @@ TEST_F(Lines, EndWherePathConstraintsEnd)
   query_.path_constraints.positions.push_back(below);
   path = followLines(scene_, checker_, query_);
   EXPECT_NEAR(0.5, path.fraction, 0.11);
-  EXPECT_NE(std::string::npos, path.message.find("path constraints")) << path.message;
+  EXPECT_NE(std::string::npos, path.message.find("path constraints are not proven to hold on")) << path.message;
+}
+
+TEST_F(Lines, ThatPathConstraintsEndAreFreeUpToThere)
+{
+  const Arm& arm = arms_->front();
+  use(arm);
+  CartesianPath whole;
+  for (int i = 0; i < 1000 && whole.fraction < 1.0; ++i)
+  {
+    drawStart();
+    query_.waypoints = {start()};
+    query_.waypoints.front().translation() += randomVector(0.3);
+    whole = followLines(scene_, checker_, query_);
+  }
+  ASSERT_EQ(1.0, whole.fraction);
+  // The constraint ends at 0.8 of the line, and the box stands in its middle.
+  const Eigen::Vector3d end = query_.waypoints.front().translation();
+  PositionConstraint near;
+  near.link = tip_;
+  near.pose.translation() = start().translation();
+  near.region = Sphere{0.24};
+  query_.path_constraints.positions.push_back(near);
+  auto blocked = std::make_shared<PlanningScene>(*scene_);
+  WorldObject box;
+  box.id = "box";
+  box.pose.translation() = 0.5 * (start().translation() + end);
+  box.shapes.push_back({Box{Eigen::Vector3d::Constant(0.02)}, Eigen::Isometry3d::Identity()});
+  blocked->objects.push_back(box);
+  setScene(blocked);
+  ASSERT_EQ(1, checker_->check(query_.start.data(), 1, arm.group).valid.front()) << "the box touches the start";
+  const CartesianPath path = followLines(scene_, checker_, query_);
+  EXPECT_LT(path.fraction, 0.7);
+  EXPECT_NE(std::string::npos, path.message.find("box")) << path.message;
+  alongPath(path, [&](const std::vector<double>& state)
+            { ASSERT_EQ(1, checker_->check(state.data(), 1, arm.group).valid.front()); });
+}
+
+TEST_F(Lines, WithoutLengthTurnTheFrameWithinTheDeviation)
+{
+  for (const Arm& arm : *arms_)
+  {
+    use(arm);
+    query_.check_collisions = false;
+    std::size_t whole = 0;
+    for (int i = 0; i < 60; ++i)
+    {
+      drawStart();
+      const Eigen::Vector3d axis = randomVector(1.0);
+      Eigen::Isometry3d goal = start();
+      goal.linear() = Eigen::AngleAxisd(0.6, axis) * goal.linear();
+      goal.translation() += randomVector(i % 3 == 0 ? 0.0 : 1e-6);  // as after rounding
+      query_.waypoints = {goal};
+      const CartesianPath path = followLines(scene_, checker_, query_);
+      whole += path.fraction == 1.0 ? 1 : 0;
+      EXPECT_LT(path.rows.size(), 200U) << arm.name;
+      const Eigen::Matrix3d first = start().linear();
+      alongPath(path,
+                [&](const std::vector<double>& state)
+                {
+                  const Eigen::Isometry3d pose = poseOf(*arm.robot, tip_, state.data());
+                  ASSERT_LE((pose.translation() - start().translation()).norm(), query_.max_deviation) << arm.name;
+                  // The rotation so far turns about the axis, but for the deviation.
+                  const Eigen::Quaterniond turned(pose.linear() * first.transpose());
+                  const Eigen::Quaterniond about(
+                      Eigen::AngleAxisd(2.0 * std::atan2(turned.vec().dot(axis), turned.w()), axis));
+                  ASSERT_LE(about.angularDistance(turned), query_.max_rotation_deviation) << arm.name;
+                });
+    }
+    EXPECT_GT(whole, 2U) << arm.name;
+  }
 }
 
 TEST_F(Lines, WithWrongInputAreRefusedInOneLine)
@@ -245,6 +318,9 @@ TEST_F(Lines, WithWrongInputAreRefusedInOneLine)
   query_.waypoints = {start()};
   query_.max_step = 0.0;
   EXPECT_EQ("the largest step is 0; it must be above 0", refusal());
+  query_.max_step = 1e-12;
+  query_.waypoints.front().translation().x() += 0.1;
+  EXPECT_EQ("the lines have more than 1e6 steps; take larger steps, or fewer waypoints", refusal());
   query_.max_step = 0.01;
   query_.waypoints.front().linear() *= 2.0;
   EXPECT_EQ(0U, refusal().find("waypoint 0")) << refusal();

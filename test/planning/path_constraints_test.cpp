@@ -224,5 +224,32 @@ TEST(PathConstraints, OfAContinuousJointWithAFollowerAreNotProvenForAWholeTurn)
   EXPECT_TRUE(path.holdAlong(&start, &near));
   EXPECT_FALSE(path.holdAlong(&start, &turned));
 }
+
+TEST(PathConstraints, OfJointsTakeValuesAtTheEndsOfRangesAndInOtherTurns)
+{
+  const std::string urdf =
+      "<robot name='r'><link name='a'/><link name='b'/><joint name='turn' type='continuous'><parent link='a'/>"
+      "<child link='b'/><axis xyz='0 0 1'/></joint></robot>";
+  const auto robot = RobotModel::fromXml(urdf, "<robot name='r'><group name='g'><joint name='turn'/></group></robot>",
+                                         RobotModelOptions());
+  for (const auto& [lower, upper] : {std::pair(0.1, 0.3), std::pair(0.07, 1.13), std::pair(6.2, 6.5)})
+  {
+    KinematicConstraints constraints;
+    constraints.addJoint(*robot, 0, lower, upper);
+    EXPECT_NO_THROW(constraints.validate(*robot, "the constraints"));
+    const PathConstraints path(robot, "g", constraints);
+    for (double value : {0.5 * (lower + upper), 0.5 * (lower + upper) - 2.0 * M_PI})
+    {
+      EXPECT_TRUE(path.violation(&value).isNone()) << value;
+      double projected = value;
+      EXPECT_TRUE(path.project(&projected));
+      EXPECT_TRUE(path.violation(&projected).isNone());
+      EXPECT_NEAR(0.0, std::remainder(projected - value, 2.0 * M_PI), 1e-9) << "it was fulfilled before";
+    }
+    double outside = upper + 0.2;
+    EXPECT_TRUE(path.project(&outside));
+    EXPECT_TRUE(path.violation(&outside).isNone()) << outside;
+  }
+}
 }  // namespace
 }  // namespace gpu_planning_scene::core
