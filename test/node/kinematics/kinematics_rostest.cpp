@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -216,13 +217,37 @@ ComputeIk::Request ikFor(const std::vector<Eigen::Isometry3d>& poses)
   return request;
 }
 
+/// Poses of the palm in random states that are free in the node's scene.
+std::vector<Eigen::Isometry3d> posesOfFreeStates(std::size_t count)
+{
+  std::mt19937_64 generator(1);
+  std::vector<Eigen::Isometry3d> poses;
+  std::vector<double> state = kStart;
+  while (poses.size() < count)
+  {
+    RunningNode::robot->randomState(generator, state.data());
+    state.back() = kStart.back();  // the gripper
+    if (RunningNode::check(state).valid.at(0) != 0)
+      poses.push_back(RunningNode::linkPose(kTip, state));
+  }
+  return poses;
+}
+
+double largestDifference(const std::vector<double>& a, const std::vector<double>& b)
+{
+  double largest = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    largest = std::max(largest, std::abs(a[i] - b[i]));
+  return largest;
+}
+
 TEST_F(InverseKinematicsService, FindsFreeStatesWithThePosesOfForwardKinematics)
 {
-  apply(diffWith(boxObject("box", {0.5, 0.3, 0.3}, 0.2)));
-  std::vector<Eigen::Isometry3d> wanted;
-  for (int i = 0; i < 20; ++i)
-    wanted.push_back(moved(tipPose(kStart), {-0.1, -0.3 + 0.02 * i, 0.1}));
+  apply(diffWith(boxObject("box", {0.5, 0.3, 0.3}, 0.3)));
+  const std::vector<Eigen::Isometry3d> wanted = posesOfFreeStates(50);
   ComputeIk::Request request = ikFor(wanted);
+  request.seed_names = {"wrist_roll"};
+  request.seed = {1.0};
   request.max_solutions = 4;
   request.clearance = 1;
   const auto found = call<ComputeIk>("compute_ik", request);
@@ -235,7 +260,7 @@ TEST_F(InverseKinematicsService, FindsFreeStatesWithThePosesOfForwardKinematics)
   ASSERT_EQ(6U, width);
   ASSERT_EQ(found.distances.size() * width, found.solutions.size());
   EXPECT_EQ(found.distances.size(), found.clearance_world.size());
-  EXPECT_GT(found.distances.size(), wanted.size());  // most poses have several solutions
+  EXPECT_GT(found.distances.size(), 3 * wanted.size() / 2);  // many poses have several solutions
 
   ComputeFk::Request forward;
   forward.frames = {kTip};
@@ -252,9 +277,11 @@ TEST_F(InverseKinematicsService, FindsFreeStatesWithThePosesOfForwardKinematics)
       EXPECT_LE((palm.translation() - wanted[pose].translation()).norm(), 1e-6 + 1e-12);
       EXPECT_LE(angleBetween(palm, wanted[pose]), 1e-6 + 1e-9);
       EXPECT_GT(found.clearance_world[at], 0.0);
-      if (i > 0)
-        EXPECT_GE(found.distances[at], found.distances[at - 1]);
       states.push_back(stateOf(found.joint_names, found.solutions.data() + at * width));
+      if (i == 0)
+        continue;
+      EXPECT_GE(found.distances[at], found.distances[at - 1]);
+      EXPECT_GE(largestDifference(states[at], states[at - 1]), 0.1);
     }
   expectFree(states);
 }
@@ -524,6 +551,25 @@ TEST_F(PathsUnderConstraints, HoldBetweenTheWaypointsToo)
   expectProven(plan.trajectory);
 }
 
+TEST_F(PathsUnderConstraints, KeepAPointInItsRegion)
+{
+  // A straight motion to the nearest state of this goal leaves the height by 1 cm.
+  Eigen::Isometry3d goal = tipPose(kStart);
+  goal.translation().head<2>() = Eigen::Vector2d(0.35, -0.2);
+  PlanMotion::Request request = planTo({goal});
+  constexpr double kThickness = 0.01;  // metres
+  auto& height = request.path_constraints.position_constraints.emplace_back();
+  height.link_name = kTip;
+  height.constraint_region.primitives.resize(1);
+  height.constraint_region.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
+  height.constraint_region.primitives[0].dimensions = {3.0, 3.0, kThickness};
+  height.constraint_region.primitive_poses = {poseAt(Eigen::Vector3d(tipPose(kStart).translation()))};
+  const auto plan = call<PlanMotion>("plan", request);
+  ASSERT_TRUE(plan.success) << plan.message;
+  for (const std::vector<double>& state : statesAlong(plan.trajectory, 100))
+    ASSERT_LE(std::abs(tipPose(state).translation().z() - tipPose(kStart).translation().z()), 0.5 * kThickness);
+}
+
 TEST_F(PathsUnderConstraints, SayWhichEndViolatesThem)
 {
   PlanMotion::Request request;
@@ -557,25 +603,33 @@ TEST_F(StraightLinesService, FollowTheLinesAndAreFree)
 {
   const Eigen::Isometry3d corner = moved(tipPose(kStart), {0.0, 0.0, 0.15});
   const Eigen::Isometry3d end = moved(corner, {0.0, 0.2, 0.0});
-  const auto path = call<ComputeCartesianPath>("compute_cartesian_path", linesThrough({corner, end}));
-  ASSERT_TRUE(path.success) << path.message;
-  EXPECT_EQ("", path.message);
-  EXPECT_EQ(1.0, path.fraction);
-  ASSERT_GE(path.trajectory.points.size(), 36U);  // 0.35 m in steps of 0.01 m
-  const std::vector<std::vector<double>> states = statesAlong(path.trajectory, 20);
   const Eigen::Vector3d begin = tipPose(kStart).translation();
-  for (const std::vector<double>& state : states)
+  // Between states that are 0.15 m apart, the palm would leave the line by millimetres.
+  for (const double step : {0.0, 0.01, 0.15})
   {
-    const Eigen::Isometry3d palm = tipPose(state);
-    const Eigen::Vector3d from_begin = palm.translation() - begin;
-    const double first_line = from_begin.head<2>().norm();
-    const double second_line = std::hypot(from_begin.x(), from_begin.z() - 0.15);
-    EXPECT_LE(std::min(first_line, second_line), 1e-4);
-    EXPECT_LE(angleBetween(palm, end), 1e-3);
+    SCOPED_TRACE(step);
+    ComputeCartesianPath::Request request = linesThrough({corner, end});
+    request.max_step = step;
+    const auto path = call<ComputeCartesianPath>("compute_cartesian_path", request);
+    ASSERT_TRUE(path.success) << path.message;
+    EXPECT_EQ("", path.message);
+    EXPECT_EQ(1.0, path.fraction);
+    if (step < 0.1)
+      EXPECT_GE(path.trajectory.points.size(), 36U);  // 0.35 m in steps of 0.01 m
+    const std::vector<std::vector<double>> states = statesAlong(path.trajectory, 20);
+    for (const std::vector<double>& state : states)
+    {
+      const Eigen::Isometry3d palm = tipPose(state);
+      const Eigen::Vector3d from_begin = palm.translation() - begin;
+      const double first_line = from_begin.head<2>().norm();
+      const double second_line = std::hypot(from_begin.x(), from_begin.z() - 0.15);
+      EXPECT_LE(std::min(first_line, second_line), 1e-4);
+      EXPECT_LE(angleBetween(palm, end), 1e-3);
+    }
+    EXPECT_LE((tipPose(states.back()).translation() - end.translation()).norm(), 1e-4);
+    expectFree(states);
+    expectProven(path.trajectory);
   }
-  EXPECT_LE((tipPose(states.back()).translation() - end.translation()).norm(), 1e-4);
-  expectFree(states);
-  expectProven(path.trajectory);
 }
 
 TEST_F(StraightLinesService, EndBeforeAnObjectAndSayWhy)
