@@ -187,14 +187,15 @@ TEST_F(Kinematic, RangesOfJointsAreKept)
   const auto robot = planarArm();
   const int tip = robot->linkIndex("tip");
   KinematicConstraints constraints = positionOf(tip, {1.2, 0.9, 0.0});
-  constraints.joints = {{1, -2.0, -0.2}, {2, 0.5, 0.7}};
+  constraints.joints = {{1, -2.8, -0.2}, {2, 0.5, 0.7}};
   const InverseKinematics kinematics(robot, "arm", constraints);
   const auto states = kinematics.solve(std::vector<double>{0.0, 1.0, 0.0}.data(), manySolutions()).states;
   ASSERT_FALSE(states.empty());
   for (const std::vector<double>& state : states)
   {
-    EXPECT_TRUE(-2.0 <= state[1] && state[1] <= -0.2) << state[1];
+    EXPECT_TRUE(-2.8 <= state[1] && state[1] <= -0.2) << state[1];
     EXPECT_TRUE(0.5 <= state[2] && state[2] <= 0.7) << state[2];
+    EXPECT_TRUE(kinematics.violation(state.data()).isNone());
     EXPECT_LT((poseOfLink(*robot, tip, state).translation() - Vector3d(1.2, 0.9, 0.0)).norm(), kPoseTolerance);
   }
 }
@@ -202,7 +203,7 @@ TEST_F(Kinematic, RangesOfJointsAreKept)
 TEST_F(Kinematic, VariablesThatMoveNoConstrainedLinkKeepTheirValues)
 {
   const auto robot = planarArm();
-  KinematicConstraints constraints = positionOf(robot->linkIndex("link_2"), {0.5, 0.0, 0.0});
+  KinematicConstraints constraints = positionOf(robot->linkIndex("link_2"), {0.6, 0.8, 0.0});
   const std::vector<double> given = {0.1, 0.2, 1.5};
   EXPECT_EQ(InverseKinematics(robot, "arm", constraints).solve(given.data(), {}).states.at(0)[2], 1.5);
   constraints.positions[0].link = robot->linkIndex("link_3");
@@ -310,8 +311,8 @@ TEST_F(Kinematic, AnUnreachablePoseGivesTheNearestState)
   EXPECT_TRUE(found.states.empty());
   EXPECT_EQ(found.attempts, IkOptions().max_attempts);
   ASSERT_EQ(found.nearest.size(), 3u);
-  EXPECT_NEAR(kinematics.violation(found.nearest.data()).position, 0.5, 1e-3);
-  EXPECT_NEAR(poseOfLink(*robot, robot->linkIndex("tip"), found.nearest).translation().y(), 3.0, 1e-3);
+  EXPECT_NEAR(kinematics.violation(found.nearest.data()).position, 0.5, 0.01);
+  EXPECT_NEAR(poseOfLink(*robot, robot->linkIndex("tip"), found.nearest).translation().y(), 3.0, 0.01);
 }
 
 TEST_F(Kinematic, AProjectionStaysNear)
@@ -365,8 +366,7 @@ TEST_F(Kinematic, EachWrongInputHasItsError)
   const int tip = robot->linkIndex("tip");
   const auto fault = [&](const std::string& group, const KinematicConstraints& constraints)
   { return errorOf([&] { InverseKinematics(robot, group, constraints); }); };
-  EXPECT_EQ(fault("legs", positionOf(tip, Vector3d::Zero())).rfind("the robot has no planning group 'legs'", 0), 0u)
-      << fault("legs", positionOf(tip, Vector3d::Zero()));
+  EXPECT_EQ(fault("legs", positionOf(tip, Vector3d::Zero())), "robot 'test' has no group 'legs'; its groups: arm");
   EXPECT_EQ(fault("arm", positionOf(0, Vector3d::Zero())), "group 'arm' has no joint that moves link 'link_0'");
   EXPECT_EQ(fault("arm", positionOf(9, Vector3d::Zero())),
             "the list of constraints names link 9, which the robot does not have");

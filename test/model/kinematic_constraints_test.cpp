@@ -75,7 +75,7 @@ Eigen::Vector3d numbersOf(const KinematicConstraints& constraints, const RobotMo
   if (orientation.parameterization == Parameterization::XyzEulerAngles)
     return xyzAngles(rotation);
   const AngleAxisd turn{Eigen::Quaterniond(rotation)};
-  return turn.angle() * turn.axis();
+  return orientation.axes.inverse() * orientation.wanted * (turn.angle() * turn.axis());
 }
 
 /// Compares the rows with central differences. All three numbers must be outside their tolerances.
@@ -133,6 +133,7 @@ TEST_F(Constraints, RowsOfOrientationsAreDerivatives)
     orientation.link = link(compared % 2 == 0 ? "end" : "middle");
     orientation.frame = randomRotation();
     orientation.wanted = randomRotation();
+    orientation.axes = randomRotation();
     orientation.tolerance.setConstant(1e-6);
     orientation.parameterization =
         compared % 4 < 2 ? Parameterization::XyzEulerAngles : Parameterization::RotationVector;
@@ -226,6 +227,31 @@ TEST_F(Constraints, APoseAllowsItsTolerancesAndNoMore)
     EXPECT_TRUE(violation.orientation == 0.0 || angle > kAngle / std::sqrt(3.0)) << angle;
   }
   EXPECT_TRUE(KinematicConstraints::pose(link("end"), frame, wanted, kLength, M_PI).orientations.empty());
+}
+
+TEST_F(Constraints, TheEndsOfARangeBelongToIt)
+{
+  const auto excess = [](const JointConstraint& range, double value)
+  {
+    KinematicConstraints constraints;
+    constraints.joints = {range};
+    return violationOf(constraints, nullptr, &value).joint;
+  };
+  for (int i = 0; i < 1000; ++i)
+  {
+    JointConstraint range{0, random(-2.5, 0.0), random(0.0, 2.5)};
+    for (const bool is_turn : {false, true})
+    {
+      range.is_turn = is_turn;
+      EXPECT_EQ(excess(range, range.lower), 0.0) << range.lower;
+      EXPECT_EQ(excess(range, range.upper), 0.0) << range.upper;
+      EXPECT_NEAR(excess(range, range.upper + 0.125), 0.125, 1e-12);
+    }
+    EXPECT_LT(excess(range, range.upper + 4.0 * M_PI), 1e-12);
+    EXPECT_NEAR(excess(range, range.lower - 2.0 * M_PI - 0.125), 0.125, 1e-12);
+    range.is_turn = false;
+    EXPECT_NEAR(excess(range, range.upper + 4.0 * M_PI), 4.0 * M_PI, 1e-12);
+  }
 }
 
 TEST_F(Constraints, TheViolationIsDescribedInWords)

@@ -1,6 +1,7 @@
 // The frames that a scene knows, their precedence, and the frames that it looks up elsewhere.
 
 #include "scene/change_testing.h"
+#include "scene/link_frame.h"
 
 namespace gpu_planning_scene::core
 {
@@ -68,6 +69,23 @@ TEST_F(Frames, OfLinksNeedTheRobotsState)
   EXPECT_TRUE(scene_.frame("table", nullptr));
   state_[0] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(std::string::npos, errorOf([&] { find("pole"); }).find("not finite"));
+}
+
+TEST_F(Frames, OfLinksCarriedObjectsAndTheirSubframesMoveWithALink)
+{
+  for (const char* name : {"cart", "pole", "tool", "tool/a/tip", "/tool"})
+  {
+    const LinkFrame frame = linkFrame(scene_, name);
+    const Eigen::Isometry3d of_link = find(scene_.robot->links().at(static_cast<std::size_t>(frame.link)).name);
+    EXPECT_TRUE((of_link * frame.pose).isApprox(find(name), 1e-15)) << name;
+  }
+  EXPECT_EQ(scene_.robot->linkIndex("cart"), linkFrame(scene_, "tool/a/tip").link);
+  for (const std::string name : {"table", "table/corner", "camera"})
+    EXPECT_EQ("frame '" + name +
+                  "' does not move with the robot; name a link, an object that a link carries, or OBJECT/SUBFRAME",
+              errorOf([&] { linkFrame(scene_, name); }));
+  EXPECT_EQ("the scene has no frame 'tool/a/tipp'; did you mean 'tool/a/tip'?",
+            errorOf([&] { linkFrame(scene_, "tool/a/tipp"); }));
 }
 
 TEST_F(Frames, UnknownFramesAreLookedUpOnceEach)

@@ -75,12 +75,15 @@ void validateJoint(const JointConstraint& constraint, const RobotModel& robot, c
     throw Error(of + " is outside the joint's limits, " + numberText(variable.lower) + " to " +
                 numberText(variable.upper));
 }
-/// The distance of a value from its range; at most 0 within it.
+
+/// The distance of a value from its range; at most 0 within it. The ends of the range are compared without rounding,
+/// because values are often exactly there: clampJoints moves them to an end.
 double excessOf(const JointConstraint& constraint, double value)
 {
   const double middle = 0.5 * (constraint.lower + constraint.upper);
-  const double difference = constraint.is_turn ? std::remainder(value - middle, 2.0 * kPi) : value - middle;
-  return std::abs(difference) - 0.5 * (constraint.upper - constraint.lower);
+  if (constraint.is_turn)
+    value -= 2.0 * kPi * std::round((value - middle) / (2.0 * kPi));
+  return std::max(constraint.lower - value, value - constraint.upper);
 }
 }  // namespace
 
