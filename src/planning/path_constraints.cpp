@@ -148,12 +148,34 @@ class Motion
   KinematicChains::Workspace workspace_;
   int samples_ = 0;
 };
+
+/// Whether a motion whose ends are within a range stays within it. Joints move monotonically, so the ends decide,
+/// except for an angle whose whole turns do not matter: between its ends, it can take the arc outside the range.
+bool turnsWithin(const RobotModel& robot, const JointConstraint& range, const double* from, const double* to)
+{
+  constexpr double kTurn = 2.0 * kPi;
+  if (!range.is_turn || range.upper - range.lower >= kTurn)
+    return true;
+  const double first = from[range.variable];
+  const double last = to[range.variable];
+  const bool is_wrapped = std::all_of(robot.joints().begin(), robot.joints().end(),
+                                      [&](const Joint& joint) {
+                                        return joint.type != JointType::Continuous ||
+                                               joint.first_variable != range.variable || isPeriodic(robot, joint);
+                                      });
+  const double travel = is_wrapped ? shortestAngularDistance(first, last) : last - first;
+  const double middle = 0.5 * (range.lower + range.upper);
+  // Without the arc outside the range, these angles from the middle do not wrap.
+  return std::abs(std::remainder(first - middle, kTurn) + travel - std::remainder(last - middle, kTurn)) < kPi;
+}
 }  // namespace
 
 bool PathConstraints::holdAlong(const double* from, const double* to) const
 {
-  // Joints move monotonically, so their ends decide.
+  const std::vector<JointConstraint>& ranges = constraints().joints;
   return violation(from).joint == 0.0 && violation(to).joint == 0.0 &&
+         std::all_of(ranges.begin(), ranges.end(),
+                     [&](const JointConstraint& range) { return turnsWithin(*robot_, range, from, to); }) &&
          Motion(*robot_, kinematics_, from, to).isProven(0.0, 1.0);
 }
 }  // namespace gpu_planning_scene::core

@@ -1,6 +1,7 @@
 #include "gpu_planning_scene/planning/path_constraints.h"
 
 #include <cmath>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -164,13 +165,20 @@ INSTANTIATE_TEST_SUITE_P(Kinds, PathConstraintsOfArms,
                                          Kind{"rotation_vector", rotationVector}),
                          [](const auto& kind) { return kind.param.name; });
 
-TEST(PathConstraints, OfJointsCountWholeTurnsOfContinuousJointsOnce)
+/// A robot with a continuous joint. `more`: further elements of its URDF.
+std::shared_ptr<const RobotModel> turningRobot(const std::string& more = "")
 {
   const std::string urdf =
       "<robot name='r'><link name='a'/><link name='b'/><joint name='turn' type='continuous'><parent link='a'/>"
-      "<child link='b'/><axis xyz='0 0 1'/></joint></robot>";
-  const auto robot = RobotModel::fromXml(urdf, "<robot name='r'><group name='g'><joint name='turn'/></group></robot>",
-                                         RobotModelOptions());
+      "<child link='b'/><axis xyz='0 0 1'/></joint>" +
+      more + "</robot>";
+  return RobotModel::fromXml(urdf, "<robot name='r'><group name='g'><joint name='turn'/></group></robot>",
+                             RobotModelOptions());
+}
+
+TEST(PathConstraints, OfJointsCountWholeTurnsOfContinuousJointsOnce)
+{
+  const auto robot = turningRobot();
   KinematicConstraints constraints;
   constraints.addJoint(*robot, 0, 3.0, 3.3);
   const PathConstraints path(robot, "g", constraints);
@@ -179,6 +187,42 @@ TEST(PathConstraints, OfJointsCountWholeTurnsOfContinuousJointsOnce)
   const double outside = 0.0;
   EXPECT_TRUE(path.holdAlong(&within, &other));
   EXPECT_FALSE(path.holdAlong(&within, &outside));
+}
+
+TEST(PathConstraints, OfAContinuousJointAreNotProvenWhereItTurnsTheShortWayOutsideItsRange)
+{
+  const auto robot = turningRobot();
+  KinematicConstraints constraints;
+  constraints.addJoint(*robot, 0, -3.0, 3.0);
+  const PathConstraints path(robot, "g", constraints);
+  const double low = -2.9;
+  const double middle = 0.2;
+  const double high = 2.9;
+  const double high_turned = high - 2.0 * M_PI;
+  EXPECT_FALSE(path.holdAlong(&low, &high));  // through pi
+  EXPECT_FALSE(path.holdAlong(&high, &low));
+  EXPECT_FALSE(path.holdAlong(&low, &high_turned));
+  EXPECT_TRUE(path.holdAlong(&low, &middle));
+  EXPECT_TRUE(path.holdAlong(&middle, &high_turned));
+  KinematicConstraints any;
+  any.addJoint(*robot, 0, -3.2, 3.2);
+  EXPECT_TRUE(PathConstraints(robot, "g", any).holdAlong(&low, &high));
+}
+
+TEST(PathConstraints, OfAContinuousJointWithAFollowerAreNotProvenForAWholeTurn)
+{
+  // The follower turns by half as much, so the joint moves from 0 to a whole turn through all angles between them.
+  const auto robot = turningRobot(
+      "<link name='c'/><joint name='half' type='continuous'><parent link='b'/>"
+      "<child link='c'/><axis xyz='0 0 1'/><mimic joint='turn' multiplier='0.5'/></joint>");
+  KinematicConstraints constraints;
+  constraints.addJoint(*robot, 0, -0.1, 0.1);
+  const PathConstraints path(robot, "g", constraints);
+  const double start = 0.0;
+  const double near = 0.05;
+  const double turned = 2.0 * M_PI;
+  EXPECT_TRUE(path.holdAlong(&start, &near));
+  EXPECT_FALSE(path.holdAlong(&start, &turned));
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
