@@ -75,7 +75,7 @@ Eigen::Vector3d numbersOf(const KinematicConstraints& constraints, const RobotMo
   if (orientation.parameterization == Parameterization::XyzEulerAngles)
     return xyzAngles(rotation);
   const AngleAxisd turn{Eigen::Quaterniond(rotation)};
-  return turn.angle() * turn.axis();
+  return orientation.axes.inverse() * orientation.wanted * (turn.angle() * turn.axis());
 }
 
 /// Compares the rows with central differences. All three numbers must be outside their tolerances.
@@ -133,6 +133,7 @@ TEST_F(Constraints, RowsOfOrientationsAreDerivatives)
     orientation.link = link(compared % 2 == 0 ? "end" : "middle");
     orientation.frame = randomRotation();
     orientation.wanted = randomRotation();
+    orientation.axes = randomRotation();
     orientation.tolerance.setConstant(1e-6);
     orientation.parameterization =
         compared % 4 < 2 ? Parameterization::XyzEulerAngles : Parameterization::RotationVector;

@@ -1,0 +1,209 @@
+// ~compute_ik and ~compute_fk without a ROS master: frames of tf, unknown states, quaternions, and stopping. The slider
+// robot of scene/slider_robot.h has its cart at x = `slide`, and its pole turned by `turn`.
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "node/kinematics/kinematics_services.h"
+#include "scene/slider_robot.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// A scene with the services of its kinematics. tf has the frame `camera`, 0.25 m along x for each second of its stamp.
+struct KinematicsNode
+{
+  SceneStore::Lookup lookup = [this](const StampedFrame& frame) -> Eigen::Isometry3d
+  {
+    ++lookups;
+    if (frame.name != "camera")
+      throw Error("frame '" + frame.name + "' is not known");
+    return Eigen::Isometry3d(Eigen::Translation3d(0.25e-9 * static_cast<double>(frame.stamp), 0.0, 0.0));
+  };
+  std::atomic<int> lookups{0};
+  SceneStore store{sliderAndWall(5), {}, {}};
+  MemoryGuard memory{0};
+  KinematicsServices services{
+      store,
+      lookup,
+      [](std::shared_ptr<const PlanningScene> scene) { return std::make_shared<CpuChecker>(std::move(scene)); },
+      [](const std::shared_ptr<const PlanningScene>& scene) { return std::make_shared<StateInspector>(scene); },
+      memory,
+      {}};
+};
+
+class KinematicsOfSlider : public testing::Test
+{
+ protected:
+  KinematicsOfSlider() { node_.store.updateState({{"slide", -0.5}, {"turn", 0.25}}); }
+
+  /// A pose `x` metres along the x axis of a frame, without a rotation relative to this frame.
+  static geometry_msgs::PoseStamped poseAlongX(double x, const std::string& frame = "", double stamp = 0.0)
+  {
+    geometry_msgs::PoseStamped pose;
+    pose.header.frame_id = frame;
+    pose.header.stamp.fromSec(stamp);
+    pose.pose.position.x = x;
+    pose.pose.orientation.w = 1.0;
+    return pose;
+  }
+
+  static ComputeIk::Request requestFor(const std::vector<geometry_msgs::PoseStamped>& poses)
+  {
+    ComputeIk::Request request;
+    request.group = "drive";
+    request.link = "pole";
+    request.poses = poses;
+    return request;
+  }
+
+  /// The message of the answer, which must be an error.
+  std::string errorFor(const ComputeIk::Request& request)
+  {
+    const ComputeIk::Response response = node_.services.computeIk(request);
+    EXPECT_FALSE(response.success);
+    EXPECT_TRUE(response.status.empty());
+    return response.message;
+  }
+
+  /// Expects one solution for each pose.
+  std::vector<double> solutionsFor(const ComputeIk::Request& request)
+  {
+    const ComputeIk::Response response = node_.services.computeIk(request);
+    EXPECT_TRUE(response.success) << response.message;
+    EXPECT_EQ(response.counts, std::vector<std::uint32_t>(request.poses.size(), 1));
+    EXPECT_EQ(response.joint_names, (std::vector<std::string>{"slide", "turn"}));
+    EXPECT_EQ(response.scene_revision, 5u);
+    return response.solutions;
+  }
+
+  KinematicsNode node_;
+};
+
+void expectNear(const std::vector<double>& values, const std::vector<double>& expected)
+{
+  ASSERT_EQ(values.size(), expected.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    EXPECT_NEAR(values[i], expected[i], 2e-6) << "value " << i;
+}
+
+TEST_F(KinematicsOfSlider, AFrameOfTfIsLookedUpOnceForEachStamp)
+{
+  expectNear(solutionsFor(requestFor(
+                 {poseAlongX(0.1, "camera", 1.0), poseAlongX(-0.1, "camera", 1.0), poseAlongX(0.1, "camera", 2.0)})),
+             {0.35, 0.0, 0.15, 0.0, 0.6, 0.0});
+  EXPECT_EQ(node_.lookups, 2);
+  EXPECT_EQ(errorFor(requestFor({poseAlongX(0.0), poseAlongX(0.0, "lamp")})), "pose 1: frame 'lamp' is not known");
+}
+
+TEST_F(KinematicsOfSlider, AFrameThatMovesIsWhereTheCurrentStateHasItAndNotTheSeed)
+{
+  ComputeIk::Request request = requestFor({poseAlongX(0.2, "cart")});
+  request.seed_names = {"slide", "turn"};
+  request.seed = {1.5, 0.0};
+  expectNear(solutionsFor(request), {-0.3, 0.0});
+}
+
+TEST_F(KinematicsOfSlider, DistancesAreThoseFromTheSeed)
+{
+  ComputeIk::Request request = requestFor({poseAlongX(0.5)});
+  EXPECT_NEAR(node_.services.computeIk(request).distances.at(0), std::hypot(1.0, 0.25), 1e-5);
+  request.named_seed = "left";  // slide -1, turn 0.8
+  EXPECT_NEAR(node_.services.computeIk(request).distances.at(0), std::hypot(1.5, 0.8), 1e-5);
+  request.seed_names = {"turn"};
+  EXPECT_EQ(errorFor(request), "named_seed is 'left', but seed_names is not empty; give one of the two");
+}
+
+TEST_F(KinematicsOfSlider, WhereTheStateIsNotKnownTheRequestMustNameIt)
+{
+  KinematicsNode fresh;
+  ComputeIk::Request request = requestFor({poseAlongX(0.5)});
+  const ComputeIk::Response unknown = fresh.services.computeIk(request);
+  EXPECT_EQ(unknown.message.rfind("the seed: no value for slide, turn; give values for all joints", 0), 0u)
+      << unknown.message;
+  request.seed_names = {"slide", "turn"};
+  request.seed = {0.0, 0.0};
+  EXPECT_EQ(fresh.services.computeIk(request).counts, std::vector<std::uint32_t>{1});
+  request.poses = {poseAlongX(0.5, "cart")};
+  const ComputeIk::Response moving = fresh.services.computeIk(request);
+  EXPECT_EQ(moving.message.rfind("pose 0: the robot's state is not known yet, so link 'cart' has no pose", 0), 0u)
+      << moving.message;
+  ComputeFk::Request forward;
+  forward.frames = {"pole"};
+  EXPECT_FALSE(fresh.services.computeFk(forward).success);
+  forward.joint_names = {"slide", "turn"};
+  forward.positions = {0.75, 0.0};
+  EXPECT_NEAR(fresh.services.computeFk(forward).poses.at(0).pose.position.x, 0.75, 1e-15);
+}
+
+TEST_F(KinematicsOfSlider, AQuaternionHasTheLengthOneUnlessAnyOrientationWillDo)
+{
+  ComputeIk::Request request = requestFor({poseAlongX(0.5)});
+  request.poses[0].pose.orientation.w = 1.0009;
+  expectNear(solutionsFor(request), {0.5, 0.0});
+  request.poses[0].pose.orientation.w = 0.99;
+  EXPECT_EQ(errorFor(request).rfind("pose 0: the quaternion of the orientation has the length 0.99", 0), 0u);
+  request.poses[0].pose.orientation.w = std::nan("");
+  EXPECT_EQ(errorFor(request).rfind("pose 0: the quaternion of the orientation has the length", 0), 0u);
+  request.orientation_tolerance = M_PI;
+  expectNear(solutionsFor(request), {0.5, 0.25});  // the pole keeps its angle
+}
+
+TEST_F(KinematicsOfSlider, ACarriedObjectReachesThePose)
+{
+  AttachedCollisionObject pen;
+  pen.link_name = "pole";
+  pen.object.id = "pen";
+  pen.object.header.frame_id = "pole";
+  pen.object.pose.orientation.w = 1.0;
+  pen.object.primitives.resize(1);
+  pen.object.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
+  pen.object.primitives[0].dimensions = {0.01};
+  pen.object.primitive_poses.resize(1);
+  pen.object.primitive_poses[0].position.z = 1.0;
+  pen.object.primitive_poses[0].orientation.w = 1.0;
+  pen.object.subframe_names = {"tip"};
+  pen.object.subframe_poses.resize(1);
+  pen.object.subframe_poses[0].position.x = 0.25;
+  pen.object.subframe_poses[0].orientation.w = 1.0;
+  ComputeIk::Request request = requestFor({poseAlongX(0.5)});
+  request.link = "pen/tip";
+  EXPECT_EQ(errorFor(request).rfind("the scene has no frame 'pen/tip'", 0), 0u);
+  request.scene_diff.is_diff = request.scene_diff.robot_state.is_diff = 1;
+  request.scene_diff.robot_state.attached_collision_objects = {pen};
+  const ComputeIk::Response response = node_.services.computeIk(request);
+  ASSERT_TRUE(response.success) << response.message;
+  expectNear(response.solutions, {0.25, 0.0});
+  request.link = "wall";
+  EXPECT_EQ(
+      errorFor(request),
+      "frame 'wall' does not move with the robot; name a link, an object that a link carries, or OBJECT/SUBFRAME");
+}
+
+TEST_F(KinematicsOfSlider, StoppingEndsARunningSearch)
+{
+  ComputeIk::Request request = requestFor(std::vector<geometry_msgs::PoseStamped>(5, poseAlongX(50.0)));  // too far
+  request.max_attempts = 200000;
+  ComputeIk::Response response;
+  std::thread caller([&] { response = node_.services.computeIk(request); });
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  node_.services.stop();
+  const auto stopped = std::chrono::steady_clock::now();
+  caller.join();
+  EXPECT_LT(std::chrono::steady_clock::now() - stopped, std::chrono::seconds(5));
+  EXPECT_FALSE(response.success);
+  EXPECT_EQ(response.message.rfind("shutting down: ", 0), 0u) << response.message;
+  EXPECT_EQ(errorFor(requestFor({poseAlongX(0.5)})).rfind("shutting down", 0), 0u);
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core
