@@ -33,15 +33,18 @@ class YourRobot(unittest.TestCase):
             for block in examples(os.path.join("docs", "your_robot.md"))
             if block
         ]
-        self.assertEqual(16, len(blocks))
-        self.variables, self.generate, limits, scene, self.first_verdict, self.launch, self.report = blocks[:7]
-        self.set_state, self.collides_now, self.carry, self.client, self.client_answer = blocks[7:12]
-        self.plan, self.picture, self.check_many, self.colliding_state = blocks[12:]
+        self.assertEqual(17, len(blocks))
+        self.variables, self.generate, limits, time_limits, scene, self.first_verdict = blocks[:6]
+        self.launch, self.report, self.set_state, self.collides_now, self.carry, self.client = blocks[6:12]
+        self.client_answer, self.plan, self.picture, self.check_many, self.colliding_state = blocks[12:]
         with open(os.path.join(self.folder.name, "my_scene.yaml"), "w", encoding="utf-8") as file:
             file.write(scene)
         self.limits = os.path.join(self.folder.name, "limits.yaml")
         with open(self.limits, "w", encoding="utf-8") as file:
             file.write(limits)
+        self.time_limits = os.path.join(self.folder.name, "time_limits.yaml")
+        with open(self.time_limits, "w", encoding="utf-8") as file:
+            file.write(time_limits)
 
     def run_block(self, block):
         answer = subprocess.run(["bash", "-c", self.variables + "\n" + block], capture_output=True, text=True,
@@ -54,6 +57,8 @@ class YourRobot(unittest.TestCase):
         self.assertIn("planning groups: palm\n", self.run_block(self.generate))
         self.assertRegex(self.run_block(self.first_verdict), r"\n0,(wrist|palm),box\n")
         self.assertIn("shoulder_pitch (-1.5 to 1.5)", self.run_block(self.first_verdict + " --planning " + self.limits))
+        answer = self.run_block(self.first_verdict + " --planning " + self.time_limits)
+        self.assertNotRegex(answer, "warning|limit")
         with subprocess.Popen(["bash", "-c", self.variables + "\nexec " + self.launch + " device:=cpu"]) as node:
             try:
                 rospy.wait_for_service("/planning_scene/check_states", 60)
