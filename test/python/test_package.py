@@ -46,7 +46,7 @@ def documented():
     for name in gps.__all__:
         value = getattr(gps, name)
         yield name, value
-        if inspect.isclass(value) and name not in ("JointType", "PlanningStatus"):
+        if inspect.isclass(value) and name not in ("IkStatus", "JointType", "PlanningStatus"):
             yield from ((f"{name}.{member}", getattr(value, member)) for member in members(value))
 
 
