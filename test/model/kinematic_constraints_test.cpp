@@ -200,6 +200,47 @@ TEST_F(Constraints, AToleranceOfPiLeavesAnAngleFree)
   }
 }
 
+TEST_F(Constraints, AnAngleWithAToleranceOfPiHasNoRow)
+{
+  OrientationConstraint orientation;
+  orientation.link = link("end");
+  orientation.tolerance = {1e-6, 1e-6, M_PI};
+  KinematicConstraints constraints;
+  constraints.orientations = {orientation};
+  const KinematicChains chains(robot_, robot_->group("all"), constraints.links());
+  for (int i = 0; i < 20; ++i)
+  {
+    KinematicChains::Workspace workspace;
+    chains.computePoses(randomState().data(), workspace);
+    ConstraintRows rows(constraints, chains);
+    EXPECT_FALSE(rows.compute(workspace, 0.1));
+    EXPECT_EQ(rows.derivatives().rows(), 2);
+  }
+}
+
+TEST_F(Constraints, ARegionReachesToItsSurface)
+{
+  PositionConstraint position;
+  position.link = link("root");
+  position.pose.linear() = randomRotation();
+  position.pose.translation() = randomVector(1.0);
+  const auto violation = [&](const std::variant<Sphere, Box>& region, const Vector3d& local)
+  {
+    position.region = region;
+    KinematicConstraints constraints;
+    constraints.positions = {position};
+    std::vector<Isometry3d> poses(robot_->links().size(), Isometry3d::Identity());
+    poses[static_cast<std::size_t>(position.link)].translation() = position.pose * local;
+    return violationOf(constraints, poses.data(), nullptr).position;
+  };
+  const Box box{{0.2, 0.4, 0.6}};
+  EXPECT_EQ(violation(box, {0.099, -0.199, 0.299}), 0.0);
+  EXPECT_NEAR(violation(box, {0.4, 0.0, 0.0}), 0.3, 1e-12);
+  EXPECT_NEAR(violation(box, {-0.4, 0.6, 0.0}), 0.5, 1e-12);
+  EXPECT_EQ(violation(Sphere{0.3}, {0.0, 0.299, 0.0}), 0.0);
+  EXPECT_NEAR(violation(Sphere{0.3}, {0.0, 0.4, -0.3}), 0.2, 1e-12);
+}
+
 TEST_F(Constraints, APoseAllowsItsTolerancesAndNoMore)
 {
   constexpr double kLength = 0.01;

@@ -270,7 +270,7 @@ TEST(CollisionFreeIk, ASearchCanBeStopped)
   // The search of an unreachable goal with any number of attempts ends too.
   CollisionFreeIkOptions endless;
   endless.ik.max_attempts = std::numeric_limits<std::size_t>::max();
-  endless.ik.max_solutions = std::numeric_limits<std::size_t>::max();
+  endless.ik.max_solutions = std::size_t{1} << 63U;
   std::atomic<int> calls{0};
   const auto stopped =
       solveElbow(sceneWithBall({9.0, 0.0, 0.0}), {{3.0, 0.0, 0.0}}, endless, [&calls] { return ++calls > 50; });
