@@ -15,6 +15,8 @@ ConstraintRows::ConstraintRows(const KinematicConstraints& constraints, const Ki
   derivatives_.resize(rows, static_cast<Eigen::Index>(chains.degreesOfFreedom().size()));
 }
 
+ConstraintRows::~ConstraintRows() = default;
+
 bool ConstraintRows::compute(const KinematicChains::Workspace& workspace, double share)
 {
   count_ = 0;

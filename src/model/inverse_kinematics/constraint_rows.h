@@ -13,6 +13,9 @@ class ConstraintRows
 {
  public:
   ConstraintRows(const KinematicConstraints& constraints, const KinematicChains& chains);
+  ~ConstraintRows();  // in the library, which also allocates: Eigen's allocators differ in code with sanitizers
+  ConstraintRows(const ConstraintRows&) = delete;
+  ConstraintRows& operator=(const ConstraintRows&) = delete;
 
   /// Computes the rows for the poses in the workspace. They aim at the tolerances times `share` (0 to 1). Returns true
   /// if the positions and orientations are within their whole tolerances.

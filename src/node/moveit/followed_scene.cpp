@@ -25,7 +25,7 @@ bool hasObject(const Objects& objects, const std::string& id)
       objects.begin(), objects.end(), [&id](const auto& object) { return object.id == id; });
 }
 
-bool isAttached(const PlanningScene& scene, const std::string& id)
+bool isCarried(const PlanningScene& scene, const std::string& id)
 {
   return std::any_of(
       scene.attached.begin(), scene.attached.end(),
@@ -39,12 +39,12 @@ void dropRemovalsOfMissing(const PlanningScene& scene, SceneChange& change)
   const auto is_void = [&scene](const ObjectChange& object)
   {
     return object.operation == Operation::Remove && !object.id.empty() && !hasObject(scene.objects, object.id) &&
-           !isAttached(scene, object.id);
+           !isCarried(scene, object.id);
   };
   const auto is_void_detach = [&scene](const AttachedChange& attached)
   {
     return attached.object.operation == Operation::Remove && !attached.object.id.empty() &&
-           !isAttached(scene, attached.object.id);
+           !isCarried(scene, attached.object.id);
   };
   change.objects.erase(std::remove_if(change.objects.begin(), change.objects.end(), is_void), change.objects.end());
   std::vector<AttachedChange>& attached = change.state.attached;
