@@ -39,14 +39,6 @@ using Clock = std::chrono::steady_clock;
 using core::PlanningProblem;
 using moveit::core::RobotState;
 
-struct BatchFactory : core::PlannerFactory
-{
-  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
-  {
-    return std::make_shared<core::BatchRrtConnect>(information);
-  }
-};
-
 shapes::ShapeConstPtr moveitShape(const core::Shape& shape)
 {
   if (const auto* box = std::get_if<core::Box>(&shape))
@@ -228,7 +220,8 @@ void run(std::size_t count, double seconds)
     query.seconds = seconds;
     begin = Clock::now();
     core::CheckerPool::Lease lease(pool, problem.scene);
-    const core::PlanningResult result = core::planMotion(problem.scene, lease.checker(), query, BatchFactory());
+    const core::PlanningResult result =
+        core::planMotion(problem.scene, lease.checker(), query, core::PlannerFactoryOf<core::BatchRrtConnect>());
     alone.add(result.status == core::PlanningStatus::Solved, core::secondsSince(begin));
     lease.giveBack();
     if (result.status != core::PlanningStatus::Solved)

@@ -29,15 +29,6 @@ constexpr double kNear = 0.02;    // metres: the ends are this close to those of
 constexpr double kFiner = 0.002;  // radians: a tenth of the default steps of motions
 constexpr std::size_t kGoals = 8;
 
-class Factory : public PlannerFactory
-{
- public:
-  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
-  {
-    return std::make_shared<BatchRrtConnect>(information);
-  }
-};
-
 /// The z axis of the tip points up.
 KinematicConstraints upright(int tip, double tilt)
 {
@@ -160,7 +151,7 @@ void study(const CommandLine& arguments)
       query.goals = goals;
       query.seconds = settings.seconds;
       query.path_constraints = constraints;
-      const PlanningResult result = planMotion(problem.scene, checker, query, Factory());
+      const PlanningResult result = planMotion(problem.scene, checker, query, PlannerFactoryOf<BatchRrtConnect>());
       if (result.status != PlanningStatus::Solved)
         std::cout << name << ": " << result.message << std::endl;
       const bool is_solved = result.status == PlanningStatus::Solved;

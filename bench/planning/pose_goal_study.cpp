@@ -24,15 +24,6 @@ namespace
 constexpr double kPositionTolerance = 1e-4;     // metres
 constexpr double kOrientationTolerance = 1e-3;  // radians
 
-class Factory : public PlannerFactory
-{
- public:
-  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
-  {
-    return std::make_shared<BatchRrtConnect>(information);
-  }
-};
-
 KinematicConstraints poseOf(const PlanningProblem& problem, const std::vector<double>& state)
 {
   const RobotModel& robot = *problem.scene->robot;
@@ -81,7 +72,7 @@ void study(const CommandLine& arguments)
           query.goals = {problem.goal};
         else
           query.goal_regions = {pose};
-        const PlanningResult result = planMotion(problem.scene, checker, query, Factory());
+        const PlanningResult result = planMotion(problem.scene, checker, query, PlannerFactoryOf<BatchRrtConnect>());
         const bool is_solved = result.status == PlanningStatus::Solved;
         Outcomes& all = outcomes[rule + ", " + goal];
         all.seconds.push_back(result.planning_seconds);

@@ -1,7 +1,5 @@
 // A plugin that adds a planner to planning_scene_node. Requests name it planner_plugin/BKPIECE.
 
-#include <memory>
-
 #include <ompl/geometric/planners/kpiece/BKPIECE1.h>
 #include <pluginlib/class_list_macros.hpp>
 
@@ -9,13 +7,8 @@
 
 namespace planner_plugin
 {
-class BkpieceFactory : public gpu_planning_scene::core::PlannerFactory
+class BkpieceFactory : public gpu_planning_scene::core::PlannerFactoryOf<ompl::geometric::BKPIECE1>
 {
- public:
-  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
-  {
-    return std::make_shared<ompl::geometric::BKPIECE1>(information);
-  }
 };
 }  // namespace planner_plugin
 

@@ -32,15 +32,6 @@ using core::PlanningQuery;
 using core::PlanningResult;
 using core::PlanningStatus;
 
-class BatchRrtConnectFactory : public core::PlannerFactory
-{
- public:
-  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
-  {
-    return std::make_shared<core::BatchRrtConnect>(information);
-  }
-};
-
 /// Values as OMPL's parameters have them.
 std::map<std::string, std::string> parametersFrom(py::handle parameters)
 {
@@ -137,7 +128,7 @@ PlanningResult planMotion(const Arg<CheckerPtr>& checker, const Arg<std::string>
       [&]
       {
         const SharedChecker::Call call(*checker.value);  // so that the whole plan is made in one scene
-        return core::planMotion(call.scene(), call.checker(), query, BatchRrtConnectFactory(),
+        return core::planMotion(call.scene(), call.checker(), query, core::PlannerFactoryOf<core::BatchRrtConnect>(),
                                 [&] { return interrupt.requested(); });
       });
   interrupt.rethrow();

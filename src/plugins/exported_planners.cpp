@@ -24,30 +24,22 @@
 // OMPL's that MoveIt's users know, by the names that they have in an ompl_planning.yaml.
 namespace gpu_planning_scene::core
 {
-template <class Planner>
-class FactoryOf : public PlannerFactory
+/// Without the parameters for ordered sampling, with which OMPL 1.5's RRTstar uses a sampler that it has not made.
+class RrtStarFactory : public PlannerFactory
 {
  public:
   ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
   {
-    return std::make_shared<Planner>(information);
+    auto planner = std::make_shared<ompl::geometric::RRTstar>(information);
+    planner->params().remove("ordered_sampling");
+    planner->params().remove("ordering_batch_size");
+    return planner;
   }
 };
-
-/// Without the parameters for ordered sampling, with which OMPL 1.5's RRTstar uses a sampler that it has not made.
-template <>
-ompl::base::PlannerPtr FactoryOf<ompl::geometric::RRTstar>::create(
-    const ompl::base::SpaceInformationPtr& information) const
-{
-  auto planner = std::make_shared<ompl::geometric::RRTstar>(information);
-  planner->params().remove("ordered_sampling");
-  planner->params().remove("ordering_batch_size");
-  return planner;
-}
 }  // namespace gpu_planning_scene::core
 
 #define GPS_EXPORT_PLANNER(planner) \
-  PLUGINLIB_EXPORT_CLASS(gpu_planning_scene::core::FactoryOf<planner>, gpu_planning_scene::core::PlannerFactory)
+  PLUGINLIB_EXPORT_CLASS(gpu_planning_scene::core::PlannerFactoryOf<planner>, gpu_planning_scene::core::PlannerFactory)
 
 GPS_EXPORT_PLANNER(gpu_planning_scene::core::AnytimeBatch)
 GPS_EXPORT_PLANNER(gpu_planning_scene::core::BatchRrtConnect)
@@ -62,6 +54,6 @@ GPS_EXPORT_PLANNER(ompl::geometric::PRM)
 GPS_EXPORT_PLANNER(ompl::geometric::PRMstar)
 GPS_EXPORT_PLANNER(ompl::geometric::RRT)
 GPS_EXPORT_PLANNER(ompl::geometric::RRTConnect)
-GPS_EXPORT_PLANNER(ompl::geometric::RRTstar)
 GPS_EXPORT_PLANNER(ompl::geometric::SBL)
 GPS_EXPORT_PLANNER(ompl::geometric::TRRT)
+PLUGINLIB_EXPORT_CLASS(gpu_planning_scene::core::RrtStarFactory, gpu_planning_scene::core::PlannerFactory)

@@ -106,24 +106,15 @@ struct WaitingPlanners : core::PlannerFactory
   mutable std::promise<void> begun;
 };
 
-/// Its planners give up at once.
-struct GivingUp : core::PlannerFactory
+/// Gives up at once.
+class GivingUp : public ompl::base::Planner
 {
-  class Planner : public ompl::base::Planner
-  {
-   public:
-    explicit Planner(const ompl::base::SpaceInformationPtr& information) : ompl::base::Planner(information, "GivingUp")
-    {
-    }
-    ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition&) override
-    {
-      return ompl::base::PlannerStatus::ABORT;
-    }
-  };
+ public:
+  explicit GivingUp(const ompl::base::SpaceInformationPtr& information) : Planner(information, "GivingUp") {}
 
-  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
+  ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition&) override
   {
-    return std::make_shared<Planner>(information);
+    return ompl::base::PlannerStatus::ABORT;
   }
 };
 
@@ -231,7 +222,8 @@ TEST_F(Context, APlannerWithoutAPathToTheGoalInTimeGivesNoPath)
 
 TEST_F(Context, APlannerThatGivesUpBeforeTheTimeEndsHasFailed)
 {
-  EXPECT_EQ(int(MoveItErrorCodes::PLANNING_FAILED), planWith(std::make_shared<GivingUp>(), onCpu()));
+  EXPECT_EQ(int(MoveItErrorCodes::PLANNING_FAILED),
+            planWith(std::make_shared<core::PlannerFactoryOf<GivingUp>>(), onCpu()));
   EXPECT_FALSE(response_.trajectory_);
 }
 

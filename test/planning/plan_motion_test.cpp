@@ -29,16 +29,6 @@ using ompl::geometric::PathGeometric;
 
 const std::vector<Wall> kWall = {{-0.1, -3.0, 0.1, 3.0}};
 
-template <class Planner>
-class Factory : public PlannerFactory
-{
- public:
-  ob::PlannerPtr create(const ob::SpaceInformationPtr& information) const override
-  {
-    return std::make_shared<Planner>(information);
-  }
-};
-
 /// A planner that goes straight to the goal without checking the motion.
 class Reckless : public ob::Planner
 {
@@ -97,7 +87,7 @@ template <class Planner>
 PlanningResult plan(const std::vector<Wall>& walls, const PlanningQuery& query, const std::function<bool()>& stop = {})
 {
   const PointRobot robot(walls);
-  return planMotion(robot.scene(), robot.checker(), query, Factory<Planner>(), stop);
+  return planMotion(robot.scene(), robot.checker(), query, PlannerFactoryOf<Planner>(), stop);
 }
 
 TEST(PlanMotion, RefusesAPathThatItsPlannerHadNotChecked)
@@ -267,7 +257,7 @@ class Turning : public testing::Test
   {
     PlanningQuery wanted = query({lift, start}, {{lift, goal}});
     wanted.group = "round";
-    return planMotion(scene_, checker_, wanted, Factory<BatchRrtConnect>());
+    return planMotion(scene_, checker_, wanted, PlannerFactoryOf<BatchRrtConnect>());
   }
 
   void put(double angle)
@@ -342,7 +332,7 @@ TEST_F(Turning, IsRefusedToAGoalThatMovesAVariableOutsideTheGroup)
   wanted.group = "round";
   try
   {
-    planMotion(scene_, checker_, wanted, Factory<BatchRrtConnect>());
+    planMotion(scene_, checker_, wanted, PlannerFactoryOf<BatchRrtConnect>());
     FAIL() << "planned";
   }
   catch (const Error& error)
@@ -374,7 +364,7 @@ TEST(PlanMotion, SuggestsDegreesForAGoalThatTheyWouldFit)
   PlanningQuery wanted = query({0.0, 0.0}, {{10.0, 90.0}});
   wanted.group = "all";
   const PlanningResult goal =
-      planMotion(scene, std::make_shared<CpuChecker>(scene), wanted, Factory<BatchRrtConnect>());
+      planMotion(scene, std::make_shared<CpuChecker>(scene), wanted, PlannerFactoryOf<BatchRrtConnect>());
   EXPECT_EQ(goal.status, PlanningStatus::OutOfBounds);
   EXPECT_EQ(goal.message,
             "the goal is out of bounds: joint 'pan' is 10, outside its limits -1 to 1 rad; values are in radians, and "
@@ -403,7 +393,7 @@ class BaseGoals : public testing::Test
         "<group name='base'><joint name='drive'/></group></robot>",
         options);
     const auto scene = std::make_shared<const PlanningScene>(robot);
-    return planMotion(scene, std::make_shared<CpuChecker>(scene), wanted, Factory<BatchRrtConnect>());
+    return planMotion(scene, std::make_shared<CpuChecker>(scene), wanted, PlannerFactoryOf<BatchRrtConnect>());
   }
 
   static Eigen::AlignedBox3d workspace(double size)
@@ -466,7 +456,7 @@ class Moving : public testing::TestWithParam<const char*>
     const auto scene = std::make_shared<const PlanningScene>(robot);
     PlanningQuery wanted = query(start, {goal});
     wanted.group = "all";
-    return planMotion(scene, std::make_shared<CpuChecker>(scene), wanted, Factory<BatchRrtConnect>());
+    return planMotion(scene, std::make_shared<CpuChecker>(scene), wanted, PlannerFactoryOf<BatchRrtConnect>());
   }
 
   std::vector<double> at(double x, double angle) const

@@ -22,15 +22,6 @@ namespace
 constexpr char kArm[] = "panda_arm";
 constexpr char kTip[] = "panda_link8";
 
-class PoseGoalFactory : public PlannerFactory
-{
- public:
-  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
-  {
-    return std::make_shared<BatchRrtConnect>(information);
-  }
-};
-
 class PoseGoals : public testing::Test
 {
  protected:
@@ -96,7 +87,8 @@ class PoseGoals : public testing::Test
     scene->current_state = query_.start;
     scene->objects = objects_;
     scene_ = scene;
-    return planMotion(scene, std::make_shared<CpuChecker>(scene, CheckerOptions()), query_, PoseGoalFactory());
+    return planMotion(scene, std::make_shared<CpuChecker>(scene, CheckerOptions()), query_,
+                      PlannerFactoryOf<BatchRrtConnect>());
   }
 
   /// The error of a query that is refused.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include <ompl/base/Planner.h>
 
 namespace gpu_planning_scene::core
@@ -15,5 +17,16 @@ class PlannerFactory
   /// and StateValidityChecker of this package; a planner may use their functions that check many states or motions in
   /// one call.
   virtual ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const = 0;
+};
+
+/// Creates planners of one class, which has a constructor with the space information as its only argument.
+template <class Planner>
+class PlannerFactoryOf : public PlannerFactory
+{
+ public:
+  ompl::base::PlannerPtr create(const ompl::base::SpaceInformationPtr& information) const override
+  {
+    return std::make_shared<Planner>(information);
+  }
 };
 }  // namespace gpu_planning_scene::core
