@@ -13,20 +13,20 @@
 #include "benchmark/csv_table.h"
 #include "benchmark/statistics.h"
 #include "command_line/command_line.h"
-#include "gpu_planning_scene/interpolation.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/collision_free_ik.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
 #include "planning/planning_case.h"
 #include "planning/projected_planner.h"
+#include "scene/frame.h"
+#include "support/states_along.h"
 
 namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
-constexpr double kTilt = 0.1;     // radians about each horizontal axis; the turn about the vertical is free
-constexpr double kNear = 0.02;    // metres: the ends are this close to those of the problem
-constexpr double kFiner = 0.002;  // radians: a tenth of the default steps of motions
+constexpr double kTilt = 0.1;   // radians about each horizontal axis; the turn about the vertical is free
+constexpr double kNear = 0.02;  // metres: the ends are this close to those of the problem
 constexpr std::size_t kGoals = 8;
 
 /// The z axis of the tip points up.
@@ -46,12 +46,10 @@ std::vector<std::vector<double>> uprightNear(const PlanningProblem& problem, Sta
 {
   const RobotModel& robot = *problem.scene->robot;
   const int tip = tipOf(robot, robot.group(problem.group));
-  std::vector<Eigen::Isometry3d> poses(robot.links().size());
-  robot.linkPoses(state.data(), poses.data());
   KinematicConstraints goal = upright(tip, 0.8 * kTilt);
   PositionConstraint position;
   position.link = tip;
-  position.pose.translation() = poses[static_cast<std::size_t>(tip)].translation();
+  position.pose.translation() = linkPose(robot, tip, state.data()).translation();
   position.region = Sphere{kNear};
   goal.positions.push_back(position);
   CollisionFreeIkOptions options;
@@ -70,28 +68,17 @@ Judgement judge(const PlanningProblem& problem, StateChecker& checker, const std
 {
   const RobotModel& robot = *problem.scene->robot;
   const int tip = tipOf(robot, robot.group(problem.group));
-  std::vector<Eigen::Isometry3d> poses(robot.links().size());
-  std::vector<double> state(robot.variables().size());
-  std::vector<double> dense;
+  const std::vector<double> states = statesAlong(robot, rows);
+  const std::size_t width = robot.variables().size();
   Judgement judgement;
-  for (std::size_t i = 1; i < rows.size(); ++i)
+  for (std::size_t i = 0; i < states.size(); i += width)
   {
-    const auto parts =
-        static_cast<std::size_t>(segmentCount(robot, rows[i - 1].data(), rows[i].data(), {kFiner, kFiner}));
-    for (std::size_t part = 0; part <= parts; ++part)
-    {
-      interpolate(robot, rows[i - 1].data(), rows[i].data(), static_cast<double>(part) / static_cast<double>(parts),
-                  state.data());
-      robot.linkPoses(state.data(), poses.data());
-      // The Euler angles of a rotation Rx(a) Ry(b) Rz(c), from its third column.
-      const Eigen::Vector3d up = poses[static_cast<std::size_t>(tip)].linear().col(2);
-      judgement.largest_tilt = std::max({judgement.largest_tilt, std::abs(std::atan2(-up.y(), up.z())),
-                                         std::abs(std::asin(std::clamp(up.x(), -1.0, 1.0)))});
-      dense.insert(dense.end(), state.begin(), state.end());
-    }
+    // The Euler angles of a rotation Rx(a) Ry(b) Rz(c), from its third column.
+    const Eigen::Vector3d up = linkPose(robot, tip, &states[i]).linear().col(2);
+    judgement.largest_tilt = std::max({judgement.largest_tilt, std::abs(std::atan2(-up.y(), up.z())),
+                                       std::abs(std::asin(std::clamp(up.x(), -1.0, 1.0)))});
   }
-  const std::size_t count = dense.size() / state.size();
-  for (const std::uint8_t valid : checker.check(dense.data(), count, problem.group).valid)
+  for (const std::uint8_t valid : checker.check(states.data(), states.size() / width, problem.group).valid)
     judgement.colliding += valid == 0 ? 1 : 0;
   return judgement;
 }

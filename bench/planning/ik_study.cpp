@@ -12,6 +12,7 @@
 #include "command_line/command_line.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/planning/collision_free_ik.h"
+#include "scene/frame.h"
 #include "support/arms.h"
 #ifdef GPS_HAS_KDL
 #include "planning/kdl_peer.h"
@@ -22,13 +23,6 @@ namespace gpu_planning_scene::core::benchmark
 namespace
 {
 constexpr double kTolerance = 1e-6;  // metres and radians
-
-Eigen::Isometry3d poseOf(const RobotModel& robot, int link, const double* state)
-{
-  std::vector<Eigen::Isometry3d> poses(robot.links().size());
-  robot.linkPoses(state, poses.data());
-  return poses[static_cast<std::size_t>(link)];
-}
 
 /// A free state in which the base stands at the origin. The joints outside the group keep its values.
 std::vector<double> freeState(const Arm& arm, StateChecker& checker, std::mt19937_64& generator)
@@ -62,7 +56,7 @@ Poses randomPoses(const Arm& arm, int tip, StateChecker& checker, std::size_t co
       state[static_cast<std::size_t>(variable)] = random[static_cast<std::size_t>(variable)];
     if (checker.check(state.data(), 1, arm.group).valid.front() == 0)
       continue;
-    poses.poses.push_back(poseOf(*arm.robot, tip, state.data()));
+    poses.poses.push_back(linkPose(*arm.robot, tip, state.data()));
     poses.states.push_back(std::move(state));
   }
   return poses;
@@ -82,7 +76,7 @@ void judge(const Arm& arm, int tip, StateChecker& checker, const Eigen::Isometry
            const std::vector<double>& state, Faults& faults)
 {
   ++faults.solved;
-  const Eigen::Isometry3d reached = poseOf(*arm.robot, tip, state.data());
+  const Eigen::Isometry3d reached = linkPose(*arm.robot, tip, state.data());
   const double distance = (reached.translation() - pose.translation()).norm();
   const double angle = Eigen::AngleAxisd(pose.linear().transpose() * reached.linear()).angle();
   faults.largest_error = std::max({faults.largest_error, distance, angle});

@@ -9,6 +9,7 @@
 #include <kdl_parser/kdl_parser.hpp>
 
 #include "gpu_planning_scene/error.h"
+#include "scene/frame.h"
 
 namespace gpu_planning_scene::core::benchmark
 {
@@ -63,9 +64,7 @@ KdlPeer::~KdlPeer() = default;
 std::optional<std::vector<double>> KdlPeer::solve(const Eigen::Isometry3d& pose, const std::vector<double>& state,
                                                   double tolerance, std::size_t max_attempts)
 {
-  std::vector<Eigen::Isometry3d> poses(impl_->robot.links().size());
-  impl_->robot.linkPoses(state.data(), poses.data());
-  const KDL::Frame wanted = frameOf(poses[static_cast<std::size_t>(impl_->root)].inverse() * pose);
+  const KDL::Frame wanted = frameOf(linkPose(impl_->robot, impl_->root, state.data()).inverse() * pose);
   KDL::ChainFkSolverPos_recursive forward(impl_->chain);
   KDL::ChainIkSolverVel_pinv velocity(impl_->chain);
   KDL::ChainIkSolverPos_NR_JL solver(impl_->chain, impl_->lower, impl_->upper, forward, velocity, kMaxSteps, tolerance);

@@ -1,6 +1,5 @@
 // line_study: paths of real arms along random straight lines among random boxes, judged at ten times the resolution.
-// See
-// --help.
+// See --help.
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +16,14 @@
 #include "gpu_planning_scene/interpolation.h"
 #include "gpu_planning_scene/inverse_kinematics.h"
 #include "gpu_planning_scene/planning/cartesian_path.h"
+#include "scene/frame.h"
 #include "support/arms.h"
+#include "support/states_along.h"
 
 namespace gpu_planning_scene::core::benchmark
 {
 namespace
 {
-constexpr double kFiner = 0.002;          // radians or metres: a tenth of the default steps of motions
 constexpr double kLongestLine = 0.4;      // metres
 constexpr double kLargestRotation = 0.8;  // radians
 constexpr std::size_t kBoxes = 12;
@@ -54,22 +54,13 @@ std::shared_ptr<const PlanningScene> sceneOf(const Arm& arm, Random& random)
   for (std::size_t i = 0; i < kBoxes; ++i)
   {
     arm.robot->randomState(random.generator(), scene->current_state.data(), state.data());
-    std::vector<Eigen::Isometry3d> poses(arm.robot->links().size());
-    arm.robot->linkPoses(state.data(), poses.data());
     WorldObject box;
     box.id = "box" + std::to_string(i);
-    box.pose.translation() = poses[static_cast<std::size_t>(tip)].translation();
+    box.pose.translation() = linkPose(*arm.robot, tip, state.data()).translation();
     box.shapes.push_back({Box{Eigen::Vector3d::Constant(random.within(0.02, 0.15))}, Eigen::Isometry3d::Identity()});
     scene->objects.push_back(box);
   }
   return scene;
-}
-
-Eigen::Isometry3d tipPose(const RobotModel& robot, int tip, const double* state)
-{
-  std::vector<Eigen::Isometry3d> poses(robot.links().size());
-  robot.linkPoses(state, poses.data());
-  return poses[static_cast<std::size_t>(tip)];
 }
 
 struct Findings
@@ -105,29 +96,20 @@ void judge(const Arm& arm, int tip, StateChecker& checker, const CartesianQuery&
            Findings& findings)
 {
   const RobotModel& robot = *arm.robot;
-  const Eigen::Vector3d from = tipPose(robot, tip, query.start.data()).translation();
+  const Eigen::Vector3d from = linkPose(robot, tip, query.start.data()).translation();
   const Eigen::Vector3d to = query.waypoints.front().translation();
-  std::vector<double> dense;
   for (std::size_t i = 1; i < path.rows.size(); ++i)
-  {
-    const double* a = path.rows[i - 1].data();
-    const double* b = path.rows[i].data();
-    for (const JointTravel& travel : jointTravel(robot, a, b))
+    for (const JointTravel& travel : jointTravel(robot, path.rows[i - 1].data(), path.rows[i].data()))
       findings.largest_joint_step = std::max({findings.largest_joint_step, travel.angle, travel.length});
-    const auto parts = static_cast<std::size_t>(std::max(10.0, segmentCount(robot, a, b, {kFiner, kFiner})));
-    std::vector<double> state(robot.variables().size());
-    for (std::size_t part = 0; part <= parts; ++part)
-    {
-      interpolate(robot, a, b, static_cast<double>(part) / static_cast<double>(parts), state.data());
-      findings.largest_deviation =
-          std::max(findings.largest_deviation, distanceFrom(tipPose(robot, tip, state.data()).translation(), from, to));
-      dense.insert(dense.end(), state.begin(), state.end());
-    }
-  }
-  const std::size_t count = dense.size() / robot.variables().size();
+  const std::vector<double> states = statesAlong(robot, path.rows);
+  const std::size_t width = robot.variables().size();
+  for (std::size_t i = 0; i < states.size(); i += width)
+    findings.largest_deviation =
+        std::max(findings.largest_deviation, distanceFrom(linkPose(robot, tip, &states[i]).translation(), from, to));
+  const std::size_t count = states.size() / width;
   if (count == 0)
     return;
-  for (const std::uint8_t valid : checker.check(dense.data(), count, arm.group).valid)
+  for (const std::uint8_t valid : checker.check(states.data(), count, arm.group).valid)
     findings.colliding += valid == 0 ? 1 : 0;
   findings.states += count;
 }
@@ -149,7 +131,7 @@ void studyArm(const Arm& arm, std::size_t count, std::uint64_t seed, CsvTable& t
     query.group = arm.group;
     query.link = tip;
     query.start = state;
-    Eigen::Isometry3d goal = tipPose(*arm.robot, tip, state.data());
+    Eigen::Isometry3d goal = linkPose(*arm.robot, tip, state.data());
     goal.translation() += random.within(0.05, kLongestLine) * random.direction();
     goal.linear() = Eigen::AngleAxisd(random.within(0.0, kLargestRotation), random.direction()) * goal.linear();
     query.waypoints = {goal};

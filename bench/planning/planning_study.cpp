@@ -23,6 +23,7 @@
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "planning/fcl_checker.h"
 #include "planning/planning_case.h"
+#include "support/states_along.h"
 
 namespace gpu_planning_scene::core::benchmark
 {
@@ -74,22 +75,12 @@ void checkAgain(const og::PathGeometric& path, const GroupStateSpace& space, con
                 const MotionSteps& steps, CpuChecker& exact, Outcome& outcome)
 {
   const RobotModel& robot = *problem.scene->robot;
-  std::vector<double> from = problem.start;
-  std::vector<double> to = problem.start;
-  std::vector<double> states;
-  for (unsigned int i = 0; i + 1 < path.getStateCount(); ++i)
-  {
-    space.copyToRow(path.getState(i), from.data());
-    space.copyToRow(path.getState(i + 1), to.data());
-    const auto parts = static_cast<std::size_t>(10.0 * segmentCount(robot, from.data(), to.data(), steps));
-    for (std::size_t k = 0; k <= parts; ++k)
-    {
-      states.resize(states.size() + from.size());
-      interpolate(robot, from.data(), to.data(), static_cast<double>(k) / static_cast<double>(parts),
-                  &states[states.size() - from.size()]);
-    }
-  }
-  const std::vector<std::uint8_t> valid = exact.check(states.data(), states.size() / from.size(), problem.group).valid;
+  std::vector<std::vector<double>> rows(path.getStateCount(), problem.start);
+  for (unsigned int i = 0; i < path.getStateCount(); ++i)
+    space.copyToRow(path.getState(i), rows[i].data());
+  const std::vector<double> states = statesAlong(robot, rows, {0.1 * steps.revolute, 0.1 * steps.prismatic});
+  const std::vector<std::uint8_t> valid =
+      exact.check(states.data(), states.size() / problem.start.size(), problem.group).valid;
   outcome.checked_again = valid.size();
   outcome.colliding = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 0));
 }

@@ -15,6 +15,7 @@
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
 #include "planning/planning_case.h"
+#include "scene/frame.h"
 
 namespace gpu_planning_scene::core::benchmark
 {
@@ -28,9 +29,7 @@ KinematicConstraints poseOf(const PlanningProblem& problem, const std::vector<do
 {
   const RobotModel& robot = *problem.scene->robot;
   const int tip = tipOf(robot, robot.group(problem.group));
-  std::vector<Eigen::Isometry3d> poses(robot.links().size());
-  robot.linkPoses(state.data(), poses.data());
-  return KinematicConstraints::pose(tip, Eigen::Isometry3d::Identity(), poses[static_cast<std::size_t>(tip)],
+  return KinematicConstraints::pose(tip, Eigen::Isometry3d::Identity(), linkPose(robot, tip, state.data()),
                                     kPositionTolerance, kOrientationTolerance);
 }
 

@@ -15,6 +15,7 @@
 #include "model/rigid_pose.h"
 #include "model/text/number_text.h"
 #include "planning/straight_lines.h"
+#include "scene/frame.h"
 
 // Each row is the solution of inverse kinematics that is nearest to the row before it. A step is halved until the
 // joints' straight motion between its rows keeps the frame close to the line, and no joint moves too much. R. H.
@@ -108,9 +109,7 @@ class Follower
  private:
   static std::vector<Eigen::Isometry3d> posesOf(const RobotModel& robot, const CartesianQuery& query)
   {
-    std::vector<Eigen::Isometry3d> poses(robot.links().size());
-    robot.linkPoses(query.start.data(), poses.data());
-    std::vector<Eigen::Isometry3d> ends = {poses[static_cast<std::size_t>(query.link)] * query.frame};
+    std::vector<Eigen::Isometry3d> ends = {linkPose(robot, query.link, query.start.data()) * query.frame};
     for (std::size_t i = 0; i < query.waypoints.size(); ++i)
       ends.push_back(nearestRigid(query.waypoints[i], "waypoint " + std::to_string(i)));
     return ends;

@@ -24,11 +24,4 @@ std::shared_ptr<const RobotModel> allJointsRobot()
   return robotOf(urdf, R"(<virtual_joint name="base" type="floating" parent_frame="world" child_link="root"/>)"
                        R"(<group name="all"><joint name="base"/><chain base_link="root" tip_link="end"/></group>)");
 }
-
-Eigen::Isometry3d poseOfLink(const RobotModel& robot, int link, const std::vector<double>& state)
-{
-  std::vector<Eigen::Isometry3d> poses(robot.links().size());
-  robot.linkPoses(state.data(), poses.data());
-  return poses[static_cast<std::size_t>(link)];
-}
 }  // namespace gpu_planning_scene::core

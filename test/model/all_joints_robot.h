@@ -1,9 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <vector>
-
-#include <Eigen/Geometry>
 
 #include "gpu_planning_scene/robot_model.h"
 
@@ -13,7 +10,4 @@ namespace gpu_planning_scene::core
 /// mimic, a planar and a floating joint. The group `all` is the whole chain, from the base to the link `end`. `middle`
 /// is the child link of the mimic joint.
 std::shared_ptr<const RobotModel> allJointsRobot();
-
-/// The pose of a link by RobotModel::linkPoses.
-Eigen::Isometry3d poseOfLink(const RobotModel& robot, int link, const std::vector<double>& state);
 }  // namespace gpu_planning_scene::core

@@ -9,6 +9,7 @@
 #include "gpu_planning_scene/inverse_kinematics.h"
 #include "model/all_joints_robot.h"
 #include "model/model_testing.h"
+#include "scene/frame.h"
 #include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
@@ -78,7 +79,7 @@ class Kinematic : public testing::Test
 
 void expectPose(const RobotModel& robot, int link, const std::vector<double>& state, const Isometry3d& wanted)
 {
-  const Isometry3d reached = poseOfLink(robot, link, state);
+  const Isometry3d reached = linkPose(robot, link, state.data());
   EXPECT_LT((reached.translation() - wanted.translation()).norm(), kPoseTolerance);
   EXPECT_LT(AngleAxisd(wanted.linear().transpose() * reached.linear()).angle(), kPoseTolerance);
 }
@@ -107,7 +108,7 @@ TEST_F(Kinematic, SolvesPosesWithJointsOfAllTypes)
     for (int i = 0; i < repetitions(30, 1000); ++i)
     {
       const int link = robot->linkIndex(name);
-      const Isometry3d wanted = poseOfLink(*robot, link, randomState(*robot));
+      const Isometry3d wanted = linkPose(*robot, link, randomState(*robot).data());
       const InverseKinematics kinematics(robot, "all", poseOf(link, wanted));
       const IkSolutions found = kinematics.solve(randomState(*robot).data(), {});
       ASSERT_EQ(found.states.size(), 1u);
@@ -123,7 +124,7 @@ TEST_F(Kinematic, SolvesPosesOfAnArmWithSixJoints)
   const int tip = tipOf(*robot, robot->group("arm"));
   for (int i = 0; i < repetitions(100, 10000); ++i)
   {
-    const Isometry3d wanted = poseOfLink(*robot, tip, randomState(*robot));
+    const Isometry3d wanted = linkPose(*robot, tip, randomState(*robot).data());
     const IkSolutions found =
         InverseKinematics(robot, "arm", poseOf(tip, wanted)).solve(robot->defaultState().data(), {});
     ASSERT_EQ(found.states.size(), 1u) << "pose " << i;
@@ -136,7 +137,7 @@ TEST_F(Kinematic, EqualSeedsGiveEqualSolutions)
 {
   const auto robot = sixAxisArm();
   const int tip = tipOf(*robot, robot->group("arm"));
-  const InverseKinematics kinematics(robot, "arm", poseOf(tip, poseOfLink(*robot, tip, randomState(*robot))));
+  const InverseKinematics kinematics(robot, "arm", poseOf(tip, linkPose(*robot, tip, randomState(*robot).data())));
   const std::vector<double> given = randomState(*robot);
   IkOptions options = manySolutions();
   const IkSolutions first = kinematics.solve(given.data(), options);
@@ -150,7 +151,7 @@ TEST_F(Kinematic, SolutionsDiffer)
 {
   const auto robot = sixAxisArm();
   const int tip = tipOf(*robot, robot->group("arm"));
-  const InverseKinematics kinematics(robot, "arm", poseOf(tip, poseOfLink(*robot, tip, randomState(*robot))));
+  const InverseKinematics kinematics(robot, "arm", poseOf(tip, linkPose(*robot, tip, randomState(*robot).data())));
   const auto states = kinematics.solve(randomState(*robot).data(), manySolutions()).states;
   EXPECT_GT(states.size(), 3u);
   for (std::size_t i = 0; i < states.size(); ++i)
@@ -169,7 +170,7 @@ TEST_F(Kinematic, BothQuaternionsOfARotationAreOneSolution)
                                               R"(child_link="body"/><group name="all"><joint name="fly"/></group>)");
   for (int i = 0; i < 10; ++i)
   {
-    const Isometry3d wanted = poseOfLink(*robot, 0, randomState(*robot));
+    const Isometry3d wanted = linkPose(*robot, 0, randomState(*robot).data());
     const std::vector<double> given = randomState(*robot);
     const auto states = InverseKinematics(robot, "all", poseOf(0, wanted)).solve(given.data(), manySolutions()).states;
     ASSERT_EQ(states.size(), 1u);
@@ -196,7 +197,7 @@ TEST_F(Kinematic, RangesOfJointsAreKept)
     EXPECT_TRUE(-2.8 <= state[1] && state[1] <= -0.2) << state[1];
     EXPECT_TRUE(0.5 <= state[2] && state[2] <= 0.7) << state[2];
     EXPECT_TRUE(kinematics.violation(state.data()).isNone());
-    EXPECT_LT((poseOfLink(*robot, tip, state).translation() - Vector3d(1.2, 0.9, 0.0)).norm(), kPoseTolerance);
+    EXPECT_LT((linkPose(*robot, tip, state.data()).translation() - Vector3d(1.2, 0.9, 0.0)).norm(), kPoseTolerance);
   }
 }
 
@@ -214,7 +215,7 @@ TEST_F(Kinematic, AnglesAreNearestToTheGivenState)
 {
   const auto robot = planarArm("continuous");
   const int tip = robot->linkIndex("tip");
-  const Isometry3d wanted = poseOfLink(*robot, tip, {0.4, -0.8, 0.2});
+  const Isometry3d wanted = linkPose(*robot, tip, std::vector<double>{0.4, -0.8, 0.2}.data());
   const std::vector<double> given = {40.0, -21.0, 3.0};
   for (const std::vector<double>& state :
        InverseKinematics(robot, "arm", poseOf(tip, wanted)).solve(given.data(), manySolutions()).states)
@@ -249,7 +250,7 @@ TEST_F(Kinematic, MimicJointsMoveWithTheirLeader)
   for (const double lead : {-1.0, 0.2, 1.2})
   {
     const int link = robot->linkIndex("d");
-    const Isometry3d wanted = poseOfLink(*robot, link, {lead});
+    const Isometry3d wanted = linkPose(*robot, link, std::vector<double>{lead}.data());
     const std::vector<double> given = {lead + 0.4};
     const auto states = InverseKinematics(robot, "arm", poseOf(link, wanted)).solve(given.data(), {}).states;
     ASSERT_EQ(states.size(), 1u);
@@ -263,11 +264,11 @@ TEST_F(Kinematic, APositionIsEnoughForAnArmWithFewJoints)
   const int tip = robot->linkIndex("tip");
   for (int i = 0; i < 20; ++i)
   {
-    const Vector3d wanted = poseOfLink(*robot, tip, randomState(*robot)).translation();
+    const Vector3d wanted = linkPose(*robot, tip, randomState(*robot).data()).translation();
     const auto states =
         InverseKinematics(robot, "arm", positionOf(tip, wanted)).solve(robot->defaultState().data(), {}).states;
     ASSERT_EQ(states.size(), 1u);
-    EXPECT_LT((poseOfLink(*robot, tip, states[0]).translation() - wanted).norm(), kPoseTolerance);
+    EXPECT_LT((linkPose(*robot, tip, states[0].data()).translation() - wanted).norm(), kPoseTolerance);
   }
 }
 
@@ -290,14 +291,14 @@ TEST_F(Kinematic, TwoLinksAreConstrainedAtOnce)
   for (int i = 0; i < 20; ++i)
   {
     const std::vector<double> state = randomState(*robot);
-    KinematicConstraints both = poseOf(hands[0], poseOfLink(*robot, hands[0], state));
-    const KinematicConstraints right = poseOf(hands[1], poseOfLink(*robot, hands[1], state));
+    KinematicConstraints both = poseOf(hands[0], linkPose(*robot, hands[0], state.data()));
+    const KinematicConstraints right = poseOf(hands[1], linkPose(*robot, hands[1], state.data()));
     both.positions.push_back(right.positions[0]);
     both.orientations.push_back(right.orientations[0]);
     const auto states = InverseKinematics(robot, "body", both).solve(robot->defaultState().data(), {}).states;
     ASSERT_EQ(states.size(), 1u);
     for (const int hand : hands)
-      expectPose(*robot, hand, states[0], poseOfLink(*robot, hand, state));
+      expectPose(*robot, hand, states[0], linkPose(*robot, hand, state.data()));
   }
 }
 
@@ -310,7 +311,7 @@ TEST_F(Kinematic, AnUnreachablePoseGivesTheNearestState)
   EXPECT_EQ(found.attempts, IkOptions().max_attempts);
   ASSERT_EQ(found.nearest.size(), 3u);
   EXPECT_NEAR(kinematics.violation(found.nearest.data()).position, 0.5, 0.01);
-  EXPECT_NEAR(poseOfLink(*robot, robot->linkIndex("tip"), found.nearest).translation().y(), 3.0, 0.01);
+  EXPECT_NEAR(linkPose(*robot, robot->linkIndex("tip"), found.nearest.data()).translation().y(), 3.0, 0.01);
 }
 
 TEST_F(Kinematic, AProjectionStaysNear)
@@ -321,7 +322,7 @@ TEST_F(Kinematic, AProjectionStaysNear)
   for (int i = 0; i < 50; ++i)
   {
     const std::vector<double> at = randomState(*robot);
-    const InverseKinematics kinematics(robot, "arm", positionOf(tip, poseOfLink(*robot, tip, at).translation()));
+    const InverseKinematics kinematics(robot, "arm", positionOf(tip, linkPose(*robot, tip, at.data()).translation()));
     std::vector<double> state = at;
     for (double& value : state)
       value += 0.05;

@@ -11,6 +11,7 @@
 #include "model/inverse_kinematics/constraint_rows.h"
 #include "model/inverse_kinematics/constraint_values.h"
 #include "model/model_testing.h"
+#include "scene/frame.h"
 
 namespace gpu_planning_scene::core
 {
@@ -67,11 +68,11 @@ Eigen::Vector3d numbersOf(const KinematicConstraints& constraints, const RobotMo
   if (!constraints.positions.empty())
   {
     const PositionConstraint& position = constraints.positions.front();
-    return position.pose.inverse() * (poseOfLink(robot, position.link, state) * position.point);
+    return position.pose.inverse() * (linkPose(robot, position.link, state.data()) * position.point);
   }
   const OrientationConstraint& orientation = constraints.orientations.front();
   const Matrix3d rotation =
-      orientation.wanted.inverse() * poseOfLink(robot, orientation.link, state).linear() * orientation.frame;
+      orientation.wanted.inverse() * linkPose(robot, orientation.link, state.data()).linear() * orientation.frame;
   if (orientation.parameterization == Parameterization::XyzEulerAngles)
     return xyzAngles(rotation);
   const AngleAxisd turn{Eigen::Quaterniond(rotation)};

@@ -4,6 +4,7 @@
 
 #include "gpu_planning_scene/cpu_checker.h"
 #include "node/parameters/node_parameters.h"
+#include "scene/frame.h"
 
 namespace gpu_planning_scene::core
 {
@@ -191,9 +192,7 @@ RobotState RunningNode::stateMessage(const std::vector<double>& state)
 
 Eigen::Isometry3d RunningNode::linkPose(const std::string& link, const std::vector<double>& state)
 {
-  std::vector<Eigen::Isometry3d> poses(robot->links().size());
-  robot->linkPoses(state.data(), poses.data());
-  return poses.at(static_cast<std::size_t>(robot->linkIndex(link)));
+  return core::linkPose(*robot, robot->linkIndex(link), state.data());
 }
 
 Eigen::Vector3d RunningNode::tipPoint()

@@ -12,20 +12,15 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "gpu_planning_scene/inverse_kinematics.h"
+#include "scene/frame.h"
 #include "support/arms.h"
 #include "support/seed.h"
+#include "support/states_along.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-Eigen::Isometry3d poseOf(const RobotModel& robot, int link, const double* state)
-{
-  std::vector<Eigen::Isometry3d> poses(robot.links().size());
-  robot.linkPoses(state, poses.data());
-  return poses[static_cast<std::size_t>(link)];
-}
-
 /// An arm of realArms() with a random free state and a line from it.
 class Lines : public testing::Test
 {
@@ -63,7 +58,7 @@ class Lines : public testing::Test
     while (checker_->check(query_.start.data(), 1, arm_->group).valid.front() == 0);
   }
 
-  Eigen::Isometry3d start() const { return poseOf(*arm_->robot, tip_, query_.start.data()); }
+  Eigen::Isometry3d start() const { return linkPose(*arm_->robot, tip_, query_.start.data()); }
 
   Eigen::Vector3d randomVector(double length)
   {
@@ -71,23 +66,13 @@ class Lines : public testing::Test
     return length * Eigen::Vector3d(normal(generator_), normal(generator_), normal(generator_)).normalized();
   }
 
-  /// Calls `look` with states along the path, at ten times the resolution of the default steps.
+  /// Calls `look` with states along the path.
   template <class Look>
   void alongPath(const CartesianPath& path, const Look& look) const
   {
-    const RobotModel& robot = *arm_->robot;
-    std::vector<double> state(robot.variables().size());
-    for (std::size_t i = 1; i < path.rows.size(); ++i)
-    {
-      const auto parts = static_cast<std::size_t>(
-          std::max(10.0, segmentCount(robot, path.rows[i - 1].data(), path.rows[i].data(), {0.002, 0.002})));
-      for (std::size_t part = 0; part <= parts; ++part)
-      {
-        interpolate(robot, path.rows[i - 1].data(), path.rows[i].data(),
-                    static_cast<double>(part) / static_cast<double>(parts), state.data());
-        look(state);
-      }
-    }
+    const std::vector<double> states = statesAlong(*arm_->robot, path.rows);
+    for (std::size_t i = 0; i < states.size(); i += query_.start.size())
+      look(&states[i]);
   }
 
   std::string refusal() const
@@ -130,18 +115,18 @@ TEST_F(Lines, AreFollowedWithinTheDeviationAndTheJumpBoundAndWithoutCollision)
       whole += path.fraction == 1.0 ? 1 : 0;
       const Eigen::Vector3d direction = (goal.translation() - start().translation()).normalized();
       alongPath(path,
-                [&](const std::vector<double>& state)
+                [&](const double* state)
                 {
-                  const Eigen::Isometry3d pose = poseOf(*arm.robot, tip_, state.data());
+                  const Eigen::Isometry3d pose = linkPose(*arm.robot, tip_, state);
                   const Eigen::Vector3d from_start = pose.translation() - start().translation();
                   const double distance = (from_start - from_start.dot(direction) * direction).norm();
                   ASSERT_LE(distance, query_.max_deviation) << arm.name;
-                  ASSERT_EQ(1, checker_->check(state.data(), 1, arm.group).valid.front()) << arm.name;
+                  ASSERT_EQ(1, checker_->check(state, 1, arm.group).valid.front()) << arm.name;
                 });
       for (std::size_t k = 1; k < path.rows.size(); ++k)
         for (const JointTravel& travel : jointTravel(*arm.robot, path.rows[k - 1].data(), path.rows[k].data()))
           ASSERT_LE(std::max(travel.angle, travel.length), query_.max_joint_step) << arm.name;
-      const Eigen::Isometry3d end = poseOf(*arm.robot, tip_, path.rows.back().data());
+      const Eigen::Isometry3d end = linkPose(*arm.robot, tip_, path.rows.back().data());
       if (path.fraction == 1.0)
       {
         ASSERT_LE((end.translation() - goal.translation()).norm(), query_.max_deviation);
@@ -213,7 +198,7 @@ TEST_F(Lines, PassSeveralWaypoints)
   {
     double least = 1.0;
     for (const std::vector<double>& row : path.rows)
-      least = std::min(least, (poseOf(*arm_->robot, tip_, row.data()).translation() - waypoint.translation()).norm());
+      least = std::min(least, (linkPose(*arm_->robot, tip_, row.data()).translation() - waypoint.translation()).norm());
     EXPECT_LE(least, 1e-5);
   }
 }
@@ -271,8 +256,7 @@ TEST_F(Lines, ThatPathConstraintsEndAreFreeUpToThere)
   const CartesianPath path = followLines(scene_, checker_, query_);
   EXPECT_LT(path.fraction, 0.7);
   EXPECT_NE(std::string::npos, path.message.find("box")) << path.message;
-  alongPath(path, [&](const std::vector<double>& state)
-            { ASSERT_EQ(1, checker_->check(state.data(), 1, arm.group).valid.front()); });
+  alongPath(path, [&](const double* state) { ASSERT_EQ(1, checker_->check(state, 1, arm.group).valid.front()); });
 }
 
 TEST_F(Lines, WithoutLengthTurnTheFrameWithinTheDeviation)
@@ -295,9 +279,9 @@ TEST_F(Lines, WithoutLengthTurnTheFrameWithinTheDeviation)
       EXPECT_LT(path.rows.size(), 200U) << arm.name;
       const Eigen::Matrix3d first = start().linear();
       alongPath(path,
-                [&](const std::vector<double>& state)
+                [&](const double* state)
                 {
-                  const Eigen::Isometry3d pose = poseOf(*arm.robot, tip_, state.data());
+                  const Eigen::Isometry3d pose = linkPose(*arm.robot, tip_, state);
                   ASSERT_LE((pose.translation() - start().translation()).norm(), query_.max_deviation) << arm.name;
                   // The rotation so far turns about the axis, but for the deviation.
                   const Eigen::Quaterniond turned(pose.linear() * first.transpose());

@@ -11,8 +11,8 @@
 
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/planning/collision_free_ik.h"
-#include "model/all_joints_robot.h"
 #include "model/model_testing.h"
+#include "scene/frame.h"
 #include "support/arms.h"
 #include "support/fcl_agreement.h"
 #include "support/repetitions.h"
@@ -70,7 +70,7 @@ std::vector<double> anyFreeState(const RobotModel& robot, StateChecker& checker,
 
 void expectReached(const Arm& arm, int link, const std::vector<double>& state, const Isometry3d& wanted)
 {
-  const Isometry3d reached = poseOfLink(*arm.robot, link, state);
+  const Isometry3d reached = linkPose(*arm.robot, link, state.data());
   EXPECT_LE((reached.translation() - wanted.translation()).norm(), kTolerance);
   EXPECT_LE(Eigen::AngleAxisd(wanted.linear().transpose() * reached.linear()).angle(), kTolerance);
 }
@@ -106,7 +106,7 @@ TEST(CollisionFreeIk, RealArmsReachThePosesOfFreeStates)
     for (const auto& state :
          freeStates(arm, checker, given, static_cast<std::size_t>(repetitions(50, 2000)), generator))
     {
-      poses.push_back(poseOfLink(*arm.robot, tip, state));
+      poses.push_back(linkPose(*arm.robot, tip, state.data()));
       goals.push_back(poseGoal(tip, poses.back()));
     }
     const auto results = solveCollisionFree(*scene, checker, arm.group, goals, given, {});
@@ -222,7 +222,7 @@ TEST(CollisionFreeIk, ARedundantArmHasSeveralSolutions)
   CpuChecker checker(scene);
   const std::vector<double> given = anyFreeState(*arm->robot, checker, generator);
   const int tip = tipOf(*arm->robot, arm->robot->group(arm->group));
-  const Isometry3d wanted = poseOfLink(*arm->robot, tip, freeStates(*arm, checker, given, 1, generator).front());
+  const Isometry3d wanted = linkPose(*arm->robot, tip, freeStates(*arm, checker, given, 1, generator).front().data());
   CollisionFreeIkOptions options;
   options.ik.max_solutions = 8;
   const auto result = solveCollisionFree(*scene, checker, arm->group, {poseGoal(tip, wanted)}, given, options).front();

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/interpolation.h"
+#include "scene/frame.h"
 #include "support/arms.h"
 #include "support/seed.h"
 
@@ -77,7 +78,6 @@ TEST_P(PathConstraintsOfArms, AreNeverProvenForAMotionThatViolatesThem)
   {
     const RobotModel& robot = *arm.robot;
     const int tip = tipOf(robot, robot.group(arm.group));
-    std::vector<Eigen::Isometry3d> poses(robot.links().size());
     std::vector<double> from(robot.variables().size());
     std::vector<double> state(from.size());
     for (int i = 0; i < kMotions; ++i)
@@ -87,10 +87,9 @@ TEST_P(PathConstraintsOfArms, AreNeverProvenForAMotionThatViolatesThem)
       const double reach = 0.5 * part(generator) * part(generator);
       for (const int variable : robot.group(arm.group).variables)
         to[static_cast<std::size_t>(variable)] += reach * (2.0 * part(generator) - 1.0);
-      robot.linkPoses(from.data(), poses.data());
       const PathConstraints constraints(
           arm.robot, arm.group,
-          GetParam().around(tip, poses[static_cast<std::size_t>(tip)], 0.02 + 0.4 * part(generator)));
+          GetParam().around(tip, linkPose(robot, tip, from.data()), 0.02 + 0.4 * part(generator)));
       if (!constraints.holdAlong(from.data(), to.data()))
       {
         ++refused;
@@ -117,14 +116,12 @@ TEST_P(PathConstraintsOfArms, AreProvenForShortMotionsWithinThem)
   {
     const RobotModel& robot = *arm.robot;
     const int tip = tipOf(robot, robot.group(arm.group));
-    std::vector<Eigen::Isometry3d> poses(robot.links().size());
     const std::vector<double> from = robot.defaultState();
     std::vector<double> to = from;
     const std::vector<int>& variables = robot.group(arm.group).variables;
     to[static_cast<std::size_t>(variables.front())] += 0.01;
-    robot.linkPoses(from.data(), poses.data());
     const PathConstraints constraints(arm.robot, arm.group,
-                                      GetParam().around(tip, poses[static_cast<std::size_t>(tip)], 0.2));
+                                      GetParam().around(tip, linkPose(robot, tip, from.data()), 0.2));
     EXPECT_TRUE(constraints.holdAlong(from.data(), to.data())) << arm.name;
   }
 }
@@ -139,16 +136,14 @@ TEST_P(PathConstraintsOfArms, AreReachedByProjection)
   {
     const RobotModel& robot = *arm.robot;
     const int tip = tipOf(robot, robot.group(arm.group));
-    std::vector<Eigen::Isometry3d> poses(robot.links().size());
     std::vector<double> state(robot.variables().size());
     std::size_t reached = 0;
     constexpr std::size_t kStates = 50;
     for (std::size_t i = 0; i < kStates; ++i)
     {
       robot.randomState(generator, robot.defaultState().data(), state.data());
-      robot.linkPoses(state.data(), poses.data());
       const PathConstraints constraints(arm.robot, arm.group,
-                                        GetParam().around(tip, poses[static_cast<std::size_t>(tip)], 0.1));
+                                        GetParam().around(tip, linkPose(robot, tip, state.data()), 0.1));
       for (const int variable : robot.group(arm.group).variables)
         state[static_cast<std::size_t>(variable)] += i % 2 == 0 ? 0.1 : -0.1;
       if (!constraints.project(state.data()))

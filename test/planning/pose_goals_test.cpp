@@ -8,11 +8,12 @@
 
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
-#include "gpu_planning_scene/interpolation.h"
 #include "gpu_planning_scene/inverse_kinematics.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
 #include "model/real_robots.h"
+#include "scene/frame.h"
+#include "support/states_along.h"
 
 // Plans whose goals are poses, and plans under path constraints, for the panda between two boxes.
 namespace gpu_planning_scene::core
@@ -46,12 +47,7 @@ class PoseGoals : public testing::Test
     return state;
   }
 
-  Eigen::Isometry3d tipAt(const std::vector<double>& state) const
-  {
-    std::vector<Eigen::Isometry3d> poses(robot_->links().size());
-    robot_->linkPoses(state.data(), poses.data());
-    return poses[static_cast<std::size_t>(tip())];
-  }
+  Eigen::Isometry3d tipAt(const std::vector<double>& state) const { return linkPose(*robot_, tip(), state.data()); }
 
   int tip() const { return robot_->linkIndex(kTip); }
 
@@ -105,28 +101,9 @@ class PoseGoals : public testing::Test
     return "";
   }
 
-  /// States along the waypoints, at ten times the resolution of the default steps.
-  std::vector<double> dense(const std::vector<std::vector<double>>& rows) const
-  {
-    std::vector<double> states;
-    std::vector<double> state(robot_->variables().size());
-    for (std::size_t i = 1; i < rows.size(); ++i)
-    {
-      const auto parts =
-          static_cast<std::size_t>(segmentCount(*robot_, rows[i - 1].data(), rows[i].data(), {0.002, 0.002}));
-      for (std::size_t part = 0; part <= parts; ++part)
-      {
-        interpolate(*robot_, rows[i - 1].data(), rows[i].data(), static_cast<double>(part) / static_cast<double>(parts),
-                    state.data());
-        states.insert(states.end(), state.begin(), state.end());
-      }
-    }
-    return states;
-  }
-
   void expectFree(const std::vector<std::vector<double>>& rows) const
   {
-    const std::vector<double> states = dense(rows);
+    const std::vector<double> states = statesAlong(*robot_, rows);
     const std::size_t count = states.size() / robot_->variables().size();
     CpuChecker checker(scene_, CheckerOptions());
     const std::vector<std::uint8_t> valid = checker.check(states.data(), count, kArm).valid;
@@ -218,14 +195,10 @@ TEST_F(PoseGoals, UnderPathConstraintsKeepThemBetweenWaypoints)
   const PlanningResult result = plan();
   ASSERT_EQ(PlanningStatus::Solved, result.status) << result.message;
   expectFree(result.waypoints);
-  const std::vector<double> states = dense(result.waypoints);
+  const std::vector<double> states = statesAlong(*robot_, result.waypoints);
   for (std::size_t i = 0; i < states.size(); i += robot_->variables().size())
   {
-    const Eigen::Vector3d axis =
-        tipAt(std::vector<double>(states.begin() + static_cast<std::ptrdiff_t>(i),
-                                  states.begin() + static_cast<std::ptrdiff_t>(i + robot_->variables().size())))
-            .linear()
-            .col(2);
+    const Eigen::Vector3d axis = linkPose(*robot_, tip(), &states[i]).linear().col(2);
     // Both Euler angles within the tolerance: the tilt is below the root of two times it.
     ASSERT_LT(std::acos(std::clamp(-axis.z(), -1.0, 1.0)), std::sqrt(2.0) * kTilt);
   }

@@ -12,19 +12,18 @@
 #include <ros/ros.h>
 
 #include "gpu_planning_scene/cpu_checker.h"
-#include "gpu_planning_scene/interpolation.h"
 #include "model/seconds_since.h"
 #include "node/messages/messages.h"
 #include "node/messages/to_messages.h"
 #include "node/persistent_call.h"
 #include "support/planning_problems.h"
+#include "support/states_along.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kTime = 60.0;         // seconds: sanitizers and other tests slow the node
-constexpr double kResolution = 0.002;  // radians or metres: a tenth of the node's resolution
+constexpr double kTime = 60.0;  // seconds: sanitizers and other tests slow the node
 
 std::string nameOf(const std::string& service)
 {
@@ -65,28 +64,14 @@ std::size_t collisionsOf(const PlanningProblem& problem, const PlanMotion::Respo
 {
   const RobotModel& robot = *problem.scene->robot;
   const Group& group = robot.group(problem.group);
-  const auto row = [&](const trajectory_msgs::JointTrajectoryPoint& point)
+  std::vector<std::vector<double>> rows;
+  for (const trajectory_msgs::JointTrajectoryPoint& point : response.trajectory.points)
   {
-    std::vector<double> full = problem.start;
+    rows.push_back(problem.start);
     for (std::size_t i = 0; i < group.variables.size(); ++i)
-      full[static_cast<std::size_t>(group.variables[i])] = point.positions[i];
-    return full;
-  };
-  std::vector<double> states;
-  const auto& points = response.trajectory.points;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i)
-  {
-    const std::vector<double> from = row(points[i]);
-    const std::vector<double> to = row(points[i + 1]);
-    const auto parts =
-        static_cast<std::size_t>(segmentCount(robot, from.data(), to.data(), {kResolution, kResolution}));
-    for (std::size_t k = 0; k <= parts; ++k)
-    {
-      states.resize(states.size() + from.size());
-      interpolate(robot, from.data(), to.data(), static_cast<double>(k) / static_cast<double>(parts),
-                  &states[states.size() - from.size()]);
-    }
+      rows.back()[static_cast<std::size_t>(group.variables[i])] = point.positions[i];
   }
+  const std::vector<double> states = statesAlong(robot, rows);
   const auto valid = exact.check(states.data(), states.size() / problem.start.size(), problem.group).valid;
   return static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 0));
 }
