@@ -119,11 +119,13 @@ TEST(ChildMeshReader, AFileThatNeedsTooMuchMemoryIsRefused)
   GTEST_SKIP() << "the address sanitizer takes more addresses than any limit";
 #endif
   const TemporaryFolder folder;
-  const std::string path = folder.write("large.stl", binaryStl(sheet(600)));  // 36 MB of triangles
+  const std::string small = folder.write("small.stl", binaryStl(sheet(3)));
+  const std::string large = folder.write("large.stl", binaryStl(sheet(600)));
   MeshLimits limits;
-  limits.memory = 100 << 20;
-  const std::string error = errorOfReading(GPS_READ_MESH, path, limits);
-  EXPECT_NE(error.find("needs more than 100 MiB"), std::string::npos) << error;
+  limits.memory = 40 << 20;  // the bytes of the large file are 34 MiB, and their mesh needs as many again
+  EXPECT_EQ(childMeshReader(GPS_READ_MESH, limits)(small, Eigen::Vector3d::Ones())->triangles.size(), 18u);
+  const std::string error = errorOfReading(GPS_READ_MESH, large, limits);
+  EXPECT_NE(error.find("needs more than 40 MiB"), std::string::npos) << error;
 }
 
 TEST(ChildMeshReader, FilesThatAreOpenInThisProcessAreClosedInTheReader)
