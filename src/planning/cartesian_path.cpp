@@ -33,10 +33,6 @@ constexpr double kAccuracy = 0.01;
 // A step is halved this many times at most: to less than a hundredth.
 constexpr int kMostHalvings = 7;
 
-// The path ends if it needs more rows than these: each of the steps needs so many halvings that memory could run out.
-constexpr std::size_t kRowsPerStep = 10;
-constexpr std::size_t kMoreRows = 1000;
-
 // Samples of the deviation within a step. It is the largest near the middle.
 constexpr std::array<double, 3> kSamples = {0.25, 0.5, 0.75};
 
@@ -82,7 +78,7 @@ class Follower
     : robot_(std::move(robot)),
       query_(query),
       lines_(posesOf(*robot_, query), {query.max_step, query.max_rotation_step},
-             {query.max_deviation, query.max_rotation_deviation})
+             {query.max_deviation, query.max_rotation_deviation}, query.max_rows)
   {
     rows_.push_back(query.start);
     ats_.push_back(0.0);
@@ -126,6 +122,9 @@ class Follower
   /// Adds rows from the last one to the pose at `at`. Returns the fault if it is not reached.
   std::string advance(double at, int halvings)
   {
+    if (rows_.size() >= query_.max_rows)
+      return "the joints need more than " + std::to_string(query_.max_rows) +
+             " states to follow the lines; take larger steps, larger deviations, or fewer waypoints";
     const InverseKinematics kinematics = kinematicsAt(at);
     std::vector<double> row = rows_.back();
     std::string fault;
@@ -142,8 +141,6 @@ class Follower
     }
     if (halvings == kMostHalvings)
       return fault;
-    if (rows_.size() > kRowsPerStep * lines_.steps().size() + kMoreRows)
-      return "the joints need more than " + std::to_string(rows_.size()) + " states to follow the lines; " + fault;
     const double middle = 0.5 * (ats_.back() + at);
     if (std::string first = advance(middle, halvings + 1); !first.empty())
       return first;

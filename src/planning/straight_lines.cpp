@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "gpu_planning_scene/error.h"
 #include "model/math_constants.h"
+#include "model/text/number_text.h"
 
 namespace gpu_planning_scene::core
 {
@@ -27,10 +29,10 @@ Eigen::Isometry3d interpolated(const Eigen::Isometry3d& from, const Eigen::Isome
 }
 }  // namespace
 
-StraightLines::StraightLines(const std::vector<Eigen::Isometry3d>& poses, const Lengths& max_step, const Lengths& unit)
+StraightLines::StraightLines(const std::vector<Eigen::Isometry3d>& poses, const Lengths& max_step, const Lengths& unit,
+                             std::size_t max_poses)
   : unit_(unit)
 {
-  constexpr double kMostSteps = 1e6;
   double at = 0.0;
   for (std::size_t i = 1; i < poses.size(); ++i)
   {
@@ -38,13 +40,14 @@ StraightLines::StraightLines(const std::vector<Eigen::Isometry3d>& poses, const 
     const double distance = (poses[i].translation() - poses[i - 1].translation()).norm();
     const double count =
         std::max({1.0, std::ceil(distance / max_step.metres), std::ceil(rotation.angle() / max_step.radians)});
-    if (!(at + count <= kMostSteps))
-      throw Error("the lines have more than 1e6 steps; take larger steps, or fewer waypoints");
     lines_.push_back({poses[i - 1], poses[i], at, at + count, rotation});
-    for (std::size_t step = 1; step <= static_cast<std::size_t>(count); ++step)
-      steps_.push_back(at + static_cast<double>(step));
     at += count;
   }
+  if (!(at < static_cast<double>(max_poses)))
+    throw Error("the lines have " + numberText(at) + " steps; they must have less than " + std::to_string(max_poses) +
+                ": take larger steps, or fewer waypoints");
+  for (double step = 1.0; step <= at; ++step)
+    steps_.push_back(step);
 }
 
 const StraightLines::Line& StraightLines::lineAt(double at) const

@@ -19,8 +19,9 @@ class StraightLines
   };
 
   /// `poses`: the first pose and the ends of the lines. `max_step`: of each step. `unit`: lengths that count the same
-  /// for deviation(). Throws Error for more than a million steps.
-  StraightLines(const std::vector<Eigen::Isometry3d>& poses, const Lengths& max_step, const Lengths& unit);
+  /// for deviation(). Throws Error if the first pose and the ends of the steps are more than `max_poses` poses.
+  StraightLines(const std::vector<Eigen::Isometry3d>& poses, const Lengths& max_step, const Lengths& unit,
+                std::size_t max_poses);
 
   /// The ends of all steps, ascending, without 0. No step crosses the end of a line.
   const std::vector<double>& steps() const { return steps_; }

@@ -18,6 +18,7 @@
 #include "node/markers/scene_markers.h"
 #include "node/messages/exact_numbers.h"
 #include "node/messages/from_messages.h"
+#include "node/messages/requested_timing.h"
 #include "node/messages/to_messages.h"
 #include "node/planning/plan_request.h"
 #include "node/planning/requested_goals.h"
@@ -235,9 +236,11 @@ class Handlers
   {
     const PlannerConfig config{"geometric::RRTConnect", {{"range", "0.5"}}};
     const Snapshot now = store_.snapshot();
-    PlanningQuery query = queryFrom(request, now, config, plannersOf(request.group), fewGoals());
+    const RequestedState start = requestedStart(request, now);
+    PlanningQuery query = queryFrom(request, now, start, config, plannersOf(request.group), fewGoals());
     addRegions(request, *now.scene, frameOfTf, fewGoals().max_goals, query);
-    timingFrom(request, *now.scene->robot, query.motions, fewGoals());
+    planWarnings(request, now, start);
+    requestedTiming(request, *now.scene->robot, 0.05, query.motions);
     requireWithinGroup(query, now.scene->robot);
   }
 

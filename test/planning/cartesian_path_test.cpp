@@ -259,6 +259,30 @@ TEST_F(Lines, ThatPathConstraintsEndAreFreeUpToThere)
   alongPath(path, [&](const double* state) { ASSERT_EQ(1, checker_->check(state, 1, arm.group).valid.front()); });
 }
 
+TEST_F(Lines, ThatNeedTooManyStatesEndWithThem)
+{
+  use(arms_->front());
+  query_.check_collisions = false;
+  CartesianPath path;
+  for (int i = 0; i < 1000 && path.fraction < 1.0; ++i)
+  {
+    drawStart();
+    query_.waypoints = {start()};
+    query_.waypoints.front().translation() += randomVector(0.3);
+    path = followLines(scene_, checker_, query_);
+  }
+  ASSERT_EQ(1.0, path.fraction);
+  const std::vector<std::vector<double>> rows = path.rows;
+  query_.max_rows = rows.size();
+  EXPECT_EQ(rows, followLines(scene_, checker_, query_).rows);
+  query_.max_deviation = 1e-6;  // halves the steps
+  path = followLines(scene_, checker_, query_);
+  EXPECT_EQ(query_.max_rows, path.rows.size());
+  EXPECT_LT(path.fraction, 1.0);
+  EXPECT_NE(std::string::npos, path.message.find("more than " + std::to_string(rows.size()) + " states to follow"))
+      << path.message;
+}
+
 TEST_F(Lines, WithoutLengthTurnTheFrameWithinTheDeviation)
 {
   for (const Arm& arm : *arms_)
@@ -304,8 +328,12 @@ TEST_F(Lines, WithWrongInputAreRefusedInOneLine)
   EXPECT_EQ("the largest step is 0; it must be above 0", refusal());
   query_.max_step = 1e-12;
   query_.waypoints.front().translation().x() += 0.1;
-  EXPECT_EQ("the lines have more than 1e6 steps; take larger steps, or fewer waypoints", refusal());
+  EXPECT_EQ("the lines have 1e+11 steps; they must have less than 1000000: take larger steps, or fewer waypoints",
+            refusal());
   query_.max_step = 0.01;
+  query_.max_rows = 10;
+  EXPECT_EQ("the lines have 10 steps; they must have less than 10: take larger steps, or fewer waypoints", refusal());
+  query_.max_rows = 1000;
   query_.waypoints.front().linear() *= 2.0;
   EXPECT_EQ(0U, refusal().find("waypoint 0")) << refusal();
   query_.waypoints = {start()};

@@ -42,7 +42,7 @@ LAYERS = {
     "node/kinematics": ["node/checks", "node/parameters"],
     "node/moveit": ["node/follow", "node/kinematics"],
     "node/markers": ["node/messages", "node/endpoints", "render"],
-    "node/planning": ["node/markers", "node/parameters", "planners"],
+    "node/planning": ["node/checks", "node/markers", "node/parameters", "planners"],
     "node": ["node/scene", "node/checks", "node/follow", "node/kinematics", "node/moveit", "node/planning", "command_line"],
     "client": [],
     "moveit": ["collision/contacts"],

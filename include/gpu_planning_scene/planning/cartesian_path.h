@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -34,6 +35,9 @@ struct CartesianQuery
   /// small step of the frame needs a large one of the joints: such a step is halved. If it is still too large at a
   /// hundredth of the steps above, the path ends there.
   double max_joint_step = 0.2;
+  /// The largest number of rows of the path. Lines with more steps are refused. If halved steps need more rows, the
+  /// path ends early.
+  std::size_t max_rows = 1000000;
   bool check_collisions = true;
   MotionCheckerOptions motions = {};
   KinematicConstraints path_constraints = {};  ///< hold along the whole path
@@ -53,8 +57,8 @@ struct CartesianPath
 /// one batch, by the motion rule. `scene`: that of the checker (StateChecker::setScene); this is not verified. If
 /// `stop` returns true, the path ends early, with a message. Throws Error for an unknown group, a link that the group
 /// does not move, a row of the wrong length, a start that is not finite or outside its limits, a waypoint that is not a
-/// rigid pose, no waypoint, and steps or bounds that are not above 0. Errors of MotionChecker pass through. Thread-safe
-/// if each call has a checker of its own.
+/// rigid pose, no waypoint, lines of too many steps, and steps or bounds that are not above 0. Errors of MotionChecker
+/// pass through. Thread-safe if each call has a checker of its own.
 CartesianPath followLines(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const CartesianQuery& query,
                           const std::function<bool()>& stop = {});

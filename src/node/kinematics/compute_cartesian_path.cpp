@@ -10,11 +10,12 @@
 #include "model/rigid_pose.h"
 #include "model/seconds_since.h"
 #include "model/text/number_text.h"
+#include "node/checks/state_warnings.h"
 #include "node/endpoints/respond.h"
 #include "node/kinematics/kinematics_services.h"
-#include "node/kinematics/state_warnings.h"
 #include "node/messages/requested_constraints.h"
 #include "node/messages/requested_poses.h"
+#include "node/messages/requested_timing.h"
 #include "node/messages/trajectory_messages.h"
 
 // The service ~compute_cartesian_path.
@@ -43,37 +44,6 @@ void setSteps(const Request& request, CartesianQuery& query)
   query.max_joint_step = valueOr(request.max_joint_step, query.max_joint_step, "max_joint_step");
 }
 
-/// Refuses lines of so many steps that they would keep the node busy for minutes.
-void requireFewSteps(const CartesianQuery& query, const Eigen::Isometry3d& start, std::size_t limit)
-{
-  double steps = 0.0;
-  Eigen::Isometry3d from = start;
-  for (const Eigen::Isometry3d& to : query.waypoints)
-  {
-    const double angle = Eigen::Quaterniond(from.linear()).angularDistance(Eigen::Quaterniond(to.linear()));
-    steps += std::ceil(
-        std::max((to.translation() - from.translation()).norm() / query.max_step, angle / query.max_rotation_step));
-    from = to;
-  }
-  if (!(steps <= static_cast<double>(limit)))
-    throw Error("the lines have " + numberText(steps) + " steps; a request may have " + std::to_string(limit) +
-                " (limits/request_states): take larger steps, or send fewer waypoints");
-}
-
-/// The timing that a request wants; no value if it wants none. Throws Error for wrong factors.
-std::optional<PathTimingOptions> timingOf(const Request& request, const CartesianQuery& query, const RobotModel& robot)
-{
-  const auto factor = [](double requested) { return requested == 0.0 ? 1.0 : requested; };
-  const PathTimingOptions timing{factor(request.max_velocity_scaling_factor),
-                                 factor(request.max_acceleration_scaling_factor),
-                                 query.path_constraints.isEmpty() ? query.max_deviation : 0.0, query.motions};
-  validateTiming(timing);
-  if (!request.times)
-    return std::nullopt;
-  requireTimes(robot, query.group);
-  return timing;
-}
-
 /// A path, and its times if they are wanted.
 struct Lines
 {
@@ -97,27 +67,26 @@ ComputeCartesianPath::Response KinematicsServices::computeCartesianPath(const Re
         const LinkFrame frame = requestedFrame(*scene, request.group, request.link);
         query.link = frame.link;
         query.frame = frame.pose;
-        RequestedState start =
+        const RequestedState start =
             requestedState(*scene->robot, {"start_names", request.start_names}, {"start", request.start},
                            {"named_start", request.named_start}, requested.now.partialState(), "the start");
-        query.start = std::move(start.state);
-        addStateWarnings(requested.now, request.group, start, query.start, "the start", warnings);
+        query.start = start.state;
+        addStateWarnings(requested.now, request.group, start, "the start", warnings);
         PoseReader reader(*scene, query.start.data(), lookup_);
         for (std::size_t i = 0; i < request.waypoints.size(); ++i)
           query.waypoints.push_back(reader.pose(request.waypoints[i], "waypoints[" + std::to_string(i) + "]"));
         setSteps(request, query);
+        query.max_rows = options_.max_poses;
         query.check_collisions = request.ignore_collisions == 0;
         query.motions = options_.motions;
         if (!request.motion_rule.empty())
           query.motions.rule = motionRuleFromName(request.motion_rule);
         query.path_constraints =
             requestedPathConstraints(request.path_constraints, *scene, request.group, query.start.data(), lookup_);
-        std::vector<Eigen::Isometry3d> links(scene->robot->links().size());
-        scene->robot->linkPoses(query.start.data(), links.data());
-        requireFewSteps(query, links[static_cast<std::size_t>(frame.link)] * frame.pose, options_.max_poses);
 
         const auto began = std::chrono::steady_clock::now();
-        const std::optional<PathTimingOptions> timing = timingOf(request, query, *scene->robot);
+        const std::optional<PathTimingOptions> timing = requestedTiming(
+            request, *scene->robot, query.path_constraints.isEmpty() ? query.max_deviation : 0.0, query.motions);
         CheckerPool::Lease lease(checkers_, scene);
         const Lines lines = withLease(
             lease,

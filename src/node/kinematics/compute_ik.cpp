@@ -8,9 +8,9 @@
 #include "model/full_states.h"
 #include "model/joint_limits.h"
 #include "model/seconds_since.h"
+#include "node/checks/state_warnings.h"
 #include "node/endpoints/respond.h"
 #include "node/kinematics/kinematics_services.h"
-#include "node/kinematics/state_warnings.h"
 #include "node/messages/requested_poses.h"
 #include "node/messages/requested_states.h"
 
@@ -102,10 +102,10 @@ KinematicsServices::IkTask KinematicsServices::taskOf(const ComputeIk::Request& 
                                                         {"orientation_tolerance", request.orientation_tolerance});
 
   const PartialState current = task.now.partialState();
-  RequestedState seed = requestedState(robot, {"seed_names", request.seed_names}, {"seed", request.seed},
-                                       {"named_seed", request.named_seed}, current, "the seed");
-  task.seed = std::move(seed.state);
-  addStateWarnings(task.now, task.group, seed, task.seed, "the seed", task.warnings);
+  const RequestedState seed = requestedState(robot, {"seed_names", request.seed_names}, {"seed", request.seed},
+                                             {"named_seed", request.named_seed}, current, "the seed");
+  task.seed = seed.state;
+  addStateWarnings(task.now, task.group, seed, "the seed", task.warnings);
 
   const bool is_known = std::all_of(current.known.begin(), current.known.end(), [](bool known) { return known; });
   PoseReader reader(scene, is_known ? current.values.data() : nullptr, lookup_);

@@ -24,7 +24,8 @@ struct KinematicsOptions
   std::size_t max_solutions = 100000;        ///< of a request, over all its poses: ~limits/ik_solutions
   std::size_t max_waiting = 16;              ///< queued requests of ~compute_ik: ~limits/waiting_ik
   std::size_t max_inspected_states = 10000;  ///< solutions of a request with clearances: ~limits/inspected_states
-  std::size_t max_poses = 1000000;    ///< in an answer of ~compute_fk, and steps of lines: ~limits/request_states
+  /// Poses in an answer of ~compute_fk, and states in one of ~compute_cartesian_path: ~limits/request_states
+  std::size_t max_poses = 1000000;
   MotionCheckerOptions motions = {};  ///< of ~compute_cartesian_path: see PlanServiceOptions
 };
 

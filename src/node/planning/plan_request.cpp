@@ -5,14 +5,16 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "model/full_states.h"
+#include "model/joint_limits.h"
 #include "model/text/name_list.h"
 #include "model/text/number_text.h"
 #include "model/text/parse_number.h"
-#include "node/messages/requested_states.h"
+#include "node/checks/state_warnings.h"
 #include "node/parameters/parameter_values.h"
 #include "node/planning/requested_goals.h"
 #include "planning/waypoints.h"
@@ -95,6 +97,35 @@ bool isWrapped(const RobotModel& robot, int variable)
       robot.joints().begin(), robot.joints().end(),
       [variable](const Joint& joint) { return !joint.mimic && wrappedAngle(joint) == variable; });
 }
+/// A warning if the named start of a request replaces known values of variables outside the group; otherwise empty.
+std::string startBeyondGroup(const PlanMotion::Request& request, const Snapshot& now, const std::vector<double>& start)
+{
+  constexpr double kWrittenDecimals = 1e-6;  // radians or metres: values of an SRDF are often written with six decimals
+  if (request.named_start.empty())
+    return "";
+  const RobotModel& robot = *now.scene->robot;
+  const std::vector<int>& of_group = robot.group(request.group).variables;
+  const auto differs = [&](std::size_t i)
+  {
+    const double change = start[i] - now.state[i];
+    return std::abs(isWrapped(robot, static_cast<int>(i)) ? std::remainder(change, 2.0 * M_PI) : change) >
+           kWrittenDecimals;
+  };
+  std::vector<std::string> moved;
+  for (std::size_t i = 0; i < start.size(); ++i)
+    if (now.known[i] && differs(i) &&
+        std::find(of_group.begin(), of_group.end(), static_cast<int>(i)) == of_group.end())
+      moved.push_back(robot.variables()[i].name + " (" + numberText(start[i]) + " instead of " +
+                      numberText(now.state[i]) + ")");
+  if (moved.empty())
+    return "";
+  const auto is_of_group = [&request](const NamedState& state)
+  { return state.group == request.group && state.name == request.named_start; };
+  const bool has_own = std::any_of(robot.namedStates().begin(), robot.namedStates().end(), is_of_group);
+  return "named_start '" + request.named_start + "' also sets variables outside the group '" + request.group +
+         "', which have other values now: " + nameList(moved) + "; to keep them, " +
+         (has_own ? "name '" + request.group + "/" + request.named_start + "'" : "give start_names and start");
+}
 }  // namespace
 
 PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own)
@@ -124,17 +155,23 @@ PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own)
   return options;
 }
 
-PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now, const PlannerConfig& config,
-                        const GroupPlanners& planners, const PlanServiceOptions& options)
+RequestedState requestedStart(const PlanMotion::Request& request, const Snapshot& now)
+{
+  const RobotModel& robot = *now.scene->robot;
+  RequestedState start =
+      requestedState(robot, {"start_names", request.start_names}, {"start", request.start},
+                     {"named_start", request.named_start}, now.partialState(), "the start of the motion");
+  requireWholeRotations(robot, start.columns);
+  return start;
+}
+
+PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now, const RequestedState& start,
+                        const PlannerConfig& config, const GroupPlanners& planners, const PlanServiceOptions& options)
 {
   const RobotModel& robot = *now.scene->robot;
   PlanningQuery query;
   query.group = request.group;
-  RequestedState start_state =
-      requestedState(robot, {"start_names", request.start_names}, {"start", request.start},
-                     {"named_start", request.named_start}, now.partialState(), "the start of the motion");
-  requireWholeRotations(robot, start_state.columns);
-  query.start = std::move(start_state.state);
+  query.start = start.state;
   const auto few = [&options](std::size_t count)
   {
     if (count > options.max_goals)
@@ -153,9 +190,9 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
     requirePlannedFor(columns, space);
     requireWholeRotations(robot, columns);
     const std::size_t width = columns.size();
-    const PartialState start(robot, query.start);
+    const PartialState others(robot, query.start);
     const std::size_t goals = goal_rows.values.size() / width;
-    const std::vector<double> rows = fullStates(robot, columns, goal_rows.values.data(), goals, start);
+    const std::vector<double> rows = fullStates(robot, columns, goal_rows.values.data(), goals, others);
     for (std::size_t i = 0; i < goals; ++i)
       query.goals.emplace_back(rows.begin() + static_cast<std::ptrdiff_t>(i * query.start.size()),
                                rows.begin() + static_cast<std::ptrdiff_t>((i + 1) * query.start.size()));
@@ -195,45 +232,19 @@ PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now,
   return query;
 }
 
-std::optional<PathTimingOptions> timingFrom(const PlanMotion::Request& request, const RobotModel& robot,
-                                            const MotionCheckerOptions& motions, const PlanServiceOptions& options)
+std::vector<std::string> planWarnings(const PlanMotion::Request& request, const Snapshot& now,
+                                      const RequestedState& start)
 {
-  const auto factor = [](double requested) { return requested == 0.0 ? 1.0 : requested; };
-  const PathTimingOptions timing{factor(request.max_velocity_scaling_factor),
-                                 factor(request.max_acceleration_scaling_factor), options.max_deviation, motions};
-  validateTiming(timing);
-  if (!request.times)
-    return std::nullopt;
-  requireTimes(robot, request.group);
-  return timing;
-}
-
-std::string startBeyondGroup(const PlanMotion::Request& request, const Snapshot& now, const std::vector<double>& start)
-{
-  constexpr double kWrittenDecimals = 1e-6;  // radians or metres: values of an SRDF are often written with six decimals
-  if (request.named_start.empty())
-    return "";
+  std::vector<std::string> warnings;
+  addStateWarnings(now, request.group, start, "the start", warnings);
+  if (std::string beyond = startBeyondGroup(request, now, start.state); !beyond.empty())
+    warnings.push_back(std::move(beyond));
+  if (request.goal_names.empty())
+    return warnings;
   const RobotModel& robot = *now.scene->robot;
-  const std::vector<int>& of_group = robot.group(request.group).variables;
-  const auto differs = [&](std::size_t i)
-  {
-    const double change = start[i] - now.state[i];
-    return std::abs(isWrapped(robot, static_cast<int>(i)) ? std::remainder(change, 2.0 * M_PI) : change) >
-           kWrittenDecimals;
-  };
-  std::vector<std::string> moved;
-  for (std::size_t i = 0; i < start.size(); ++i)
-    if (now.known[i] && differs(i) &&
-        std::find(of_group.begin(), of_group.end(), static_cast<int>(i)) == of_group.end())
-      moved.push_back(robot.variables()[i].name + " (" + numberText(start[i]) + " instead of " +
-                      numberText(now.state[i]) + ")");
-  if (moved.empty())
-    return "";
-  const auto is_of_group = [&request](const NamedState& state)
-  { return state.group == request.group && state.name == request.named_start; };
-  const bool has_own = std::any_of(robot.namedStates().begin(), robot.namedStates().end(), is_of_group);
-  return "named_start '" + request.named_start + "' also sets variables outside the group '" + request.group +
-         "', which have other values now: " + nameList(moved) + "; to keep them, " +
-         (has_own ? "name '" + request.group + "/" + request.named_start + "'" : "give start_names and start");
+  if (const auto turned = findManyTurns(robot, variableIndices(robot, request.goal_names), request.goals.data(),
+                                        request.goals.size() / request.goal_names.size()))
+    warnings.push_back("goal " + std::to_string(turned->row) + ": " + turned->text);
+  return warnings;
 }
 }  // namespace gpu_planning_scene::core

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <string>
+#include <vector>
 
 #include <gpu_planning_scene/PlanMotion.h>
 #include <ros/node_handle.h>
 
-#include "gpu_planning_scene/planning/path_timing.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
+#include "node/messages/requested_states.h"
 #include "planners/planner_configs.h"
 #include "service/scene_store.h"
 
@@ -28,17 +29,18 @@ struct PlanServiceOptions
 /// Throws Error, which names the parameter.
 PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own);
 
-/// Converts a request of ~plan to a query. `config`: the configuration of the requested planner. `planners`: the
-/// settings of the requested group. Throws Error for a wrong request.
-PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now, const PlannerConfig& config,
-                        const GroupPlanners& planners, const PlanServiceOptions& options);
+/// The start of a request of ~plan. Throws Error for a wrong request.
+RequestedState requestedStart(const PlanMotion::Request& request, const Snapshot& now);
 
-/// How to compute the times of the path; no value if the request wants none. `motions`: of the query. Throws Error for
-/// a scaling factor that is neither 0 nor within its range, and for a group without times.
-std::optional<PathTimingOptions> timingFrom(const PlanMotion::Request& request, const RobotModel& robot,
-                                            const MotionCheckerOptions& motions, const PlanServiceOptions& options);
+/// Converts a request of ~plan to a query, without the goals that are regions. `start`: of requestedStart. `config`:
+/// the configuration of the requested planner. `planners`: the settings of the requested group. Throws Error for a
+/// wrong request.
+PlanningQuery queryFrom(const PlanMotion::Request& request, const Snapshot& now, const RequestedState& start,
+                        const PlannerConfig& config, const GroupPlanners& planners, const PlanServiceOptions& options);
 
-/// A warning if the named start of a request replaces known values of variables outside the group, for example of
-/// another arm that has a state of this name too; otherwise empty. `start`: of the query.
-std::string startBeyondGroup(const PlanMotion::Request& request, const Snapshot& now, const std::vector<double>& start);
+/// Warnings about the start and the goals of a request that queryFrom has accepted: those of addStateWarnings, goals of
+/// many turns, and a named start that replaces known values of variables outside the group, for example of another arm
+/// that has a state of this name too.
+std::vector<std::string> planWarnings(const PlanMotion::Request& request, const Snapshot& now,
+                                      const RequestedState& start);
 }  // namespace gpu_planning_scene::core

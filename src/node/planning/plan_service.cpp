@@ -9,10 +9,9 @@
 #include <ros/console.h>
 
 #include "gpu_planning_scene/error.h"
-#include "model/full_states.h"
-#include "model/joint_limits.h"
+#include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"
-#include "node/messages/requested_changes.h"
+#include "node/messages/requested_timing.h"
 #include "node/messages/trajectory_messages.h"
 #include "node/planning/requested_goals.h"
 #include "service/busy.h"
@@ -164,34 +163,16 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
 {
   const PlannerConfig config = configs_.find(request.planner, request.group);
   const std::shared_ptr<const PlannerFactory> factory = plugins_.find(config.type, configs_.names());
-  std::vector<std::string> warnings;
-  const std::vector<SceneChange> changes =
-      requestedChanges(*store_.snapshot().scene->robot, store_.limits(), request.scene_diff, {}, warnings);
-  const SceneStore::Preview preview = store_.preview(changes, lookup_);
-  warnings.insert(warnings.end(), preview.warnings.begin(), preview.warnings.end());
-  const Snapshot& now = preview.snapshot;
-  PlanningQuery query = queryFrom(request, now, config, configs_.ofGroup(request.group), options_);
+  RequestedScene requested = requestedScene(store_, lookup_, request.scene_diff, {});
+  const Snapshot& now = requested.now;
+  const RequestedState start = requestedStart(request, now);
+  PlanningQuery query = queryFrom(request, now, start, config, configs_.ofGroup(request.group), options_);
   addRegions(request, *now.scene, lookup_, options_.max_goals, query);
-  if (std::string base = now.assumedBase(variableIndices(*now.scene->robot, request.start_names)); !base.empty())
-    warnings.push_back(std::move(base));
-  if (std::string beyond = startBeyondGroup(request, now, query.start); !beyond.empty())
-    warnings.push_back(std::move(beyond));
-  const RobotModel& robot = *now.scene->robot;
-  if (const std::string outside =
-          otherValueOutsideLimits(robot, robot.group(request.group).variables, query.start.data());
-      !outside.empty())
-    warnings.push_back("the start: " + outside);
-  auto turned = request.start_names.empty()
-                    ? std::nullopt
-                    : findManyTurns(robot, variableIndices(robot, request.start_names), request.start.data(), 1);
-  if (!turned && !request.goal_names.empty())
-    turned = findManyTurns(robot, variableIndices(robot, request.goal_names), request.goals.data(),
-                           request.goals.size() / request.goal_names.size());
-  if (turned)
-    warnings.push_back(turned->text);
-  auto timing = timingFrom(request, robot, query.motions, options_);
-  if (timing && !query.path_constraints.isEmpty())
-    timing->max_deviation = 0.0;  // a rounded corner could leave the constraints
+  std::vector<std::string> warnings = std::move(requested.warnings);
+  for (std::string& warning : planWarnings(request, now, start))
+    warnings.push_back(std::move(warning));
+  const auto timing = requestedTiming(request, *now.scene->robot,
+                                      query.path_constraints.isEmpty() ? options_.max_deviation : 0.0, query.motions);
   return {now.scene, std::move(query), timing, factory, config.type, std::move(warnings)};
 }
 

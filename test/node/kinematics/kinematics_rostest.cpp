@@ -693,7 +693,7 @@ TEST_F(StraightLinesService, RefuseWrongRequestsInOneLine)
       "max_step is -1; it must be at least 0", [](Request& r) { r.max_step = -1.0; });
   refused(
       "deviation", [](Request& r) { r.max_deviation = 1e-9; });
-  refused("steps; a request may have", [](Request& r) { r.max_step = 1e-9; });
+  refused("steps; they must have less than 1000000", [](Request& r) { r.max_step = 1e-9; });
   refused("start has 2 rows; give one state",
           [](Request& r)
           {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "model/model_testing.h"
+#include "node/messages/requested_timing.h"
 #include "node/planning/plan_request.h"
 #include "scene/slider_robot.h"
 
@@ -24,7 +25,17 @@ class BaseRequest : public testing::Test
     store_.updateState({{"slide", 0.0}, {"turn", 0.0}});
   }
 
-  PlanningQuery query() const { return queryFrom(request_, store_.snapshot(), {}, {}, {}); }
+  PlanningQuery query() const
+  {
+    const Snapshot now = store_.snapshot();
+    return queryFrom(request_, now, requestedStart(request_, now), {}, {}, {});
+  }
+
+  std::vector<std::string> warnings() const
+  {
+    const Snapshot now = store_.snapshot();
+    return planWarnings(request_, now, requestedStart(request_, now));
+  }
 
   static std::shared_ptr<const RobotModel> robot()
   {
@@ -58,9 +69,7 @@ TEST_F(BaseRequest, HasTheWorkspaceOfItsMessage)
 
 TEST_F(BaseRequest, ScalesVelocitiesAsMoveItDoes)
 {
-  PlanServiceOptions options;
-  options.max_deviation = 0.02;
-  const auto timing = [&] { return timingFrom(request_, *robot(), {MotionRule::Samples}, options); };
+  const auto timing = [&] { return requestedTiming(request_, *robot(), 0.02, {MotionRule::Samples}); };
   EXPECT_FALSE(timing());
   request_.times = true;
   ASSERT_TRUE(timing());
@@ -84,6 +93,19 @@ TEST_F(BaseRequest, ScalesVelocitiesAsMoveItDoes)
     }
 }
 
+TEST_F(BaseRequest, WithManyTurnsOrOtherValuesOutsideTheirLimitsHasWarnings)
+{
+  EXPECT_EQ(std::vector<std::string>(), warnings());
+  request_.start[2] = 90.0;
+  request_.goals = {0.0, 0.0, 0.5, 1.0, 0.0, -90.0};
+  store_.updateState({{"slide", 7.0}});
+  const std::vector<std::string> found = warnings();
+  ASSERT_EQ(3U, found.size());
+  EXPECT_EQ(0U, found[0].find("the start: joint 'slide' is 7")) << found[0];
+  EXPECT_EQ(0U, found[1].find("the start: joint 'floor/theta' is 90 rad, more than one turn")) << found[1];
+  EXPECT_EQ(0U, found[2].find("goal 1: joint 'floor/theta' is -90 rad, more than one turn")) << found[2];
+}
+
 /// For example the state "ready" of two arms: it also sets the arm that is not planned for.
 TEST(NamedStart, ThatReplacesKnownValuesOutsideTheGroupGivesAWarning)
 {
@@ -94,17 +116,22 @@ TEST(NamedStart, ThatReplacesKnownValuesOutsideTheGroupGivesAWarning)
   request.named_start = "left";  // slide = -1, turn = 0.8
   request.goal_names = {"turn"};
   request.goals = {0.1};
-  const auto warning = [&]
-  { return startBeyondGroup(request, store.snapshot(), queryFrom(request, store.snapshot(), {}, {}, {}).start); };
+  const auto warnings = [&]
+  {
+    const Snapshot now = store.snapshot();
+    return planWarnings(request, now, requestedStart(request, now));
+  };
+  const std::vector<std::string> none;
   EXPECT_EQ(
-      "named_start 'left' also sets variables outside the group 'mast', which have other values now: slide (-1 instead "
-      "of 0.5); to keep them, give start_names and start",
-      warning());
+      std::vector<std::string>{
+          "named_start 'left' also sets variables outside the group 'mast', which have other values now: slide (-1 "
+          "instead of 0.5); to keep them, give start_names and start"},
+      warnings());
   store.updateState({{"slide", -1.0}});
-  EXPECT_EQ("", warning());
+  EXPECT_EQ(none, warnings());
   store.updateState({{"slide", 0.5}});
   request.group = "drive";
-  EXPECT_EQ("", warning());
+  EXPECT_EQ(none, warnings());
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

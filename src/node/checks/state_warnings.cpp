@@ -1,4 +1,4 @@
-#include "node/kinematics/state_warnings.h"
+#include "node/checks/state_warnings.h"
 
 #include <utility>
 
@@ -7,12 +7,12 @@
 namespace gpu_planning_scene::core
 {
 void addStateWarnings(const Snapshot& now, const std::string& group, const RequestedState& requested,
-                      const std::vector<double>& state, const std::string& what, std::vector<std::string>& warnings)
+                      const std::string& what, std::vector<std::string>& warnings)
 {
   const RobotModel& robot = *now.scene->robot;
   if (std::string base = now.assumedBase(requested.columns); !base.empty())
     warnings.push_back(std::move(base));
-  if (const std::string outside = otherValueOutsideLimits(robot, robot.group(group).variables, state.data());
+  if (const std::string outside = otherValueOutsideLimits(robot, robot.group(group).variables, requested.state.data());
       !outside.empty())
     warnings.push_back(what + ": " + outside);
   if (const auto turned = findManyTurns(robot, requested.columns, requested.row.values.data(), 1);
