@@ -25,12 +25,12 @@
 #include "model/full_states.h"
 #include "model/seconds_since.h"
 #include "model/text/number_text.h"
-#include "planning/checked_endpoints.h"
-#include "planning/counted_checker.h"
-#include "planning/goal_regions.h"
+#include "planning/goals/checked_endpoints.h"
+#include "planning/goals/goal_regions.h"
 #include "planning/planner_parameters.h"
-#include "planning/valid_row.h"
-#include "planning/waypoints.h"
+#include "planning/space/valid_row.h"
+#include "planning/space/waypoints.h"
+#include "planning/validity/counted_checker.h"
 
 // The planner gets the time that the check of the start and the goals leaves. Simplification and the last check of the
 // path may then each take the time that is left, but at least a tenth of the planning time. Own method.

@@ -17,7 +17,7 @@
 #include "node/checks/state_warnings.h"
 #include "node/parameters/parameter_values.h"
 #include "node/planning/requested_goals.h"
-#include "planning/waypoints.h"
+#include "planning/space/waypoints.h"
 
 namespace gpu_planning_scene::core
 {

@@ -1,0 +1,262 @@
+#include "planning/search/bidirectional_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+// A round collects the next motions of all attempts and of the random branches. It checks their samples in one call and
+// adds the valid motions to the trees. The trees stay balanced: a tree in open space would soon have most of the
+// vertices, and its growth would cost most of the checks, while the other one looks for its way out.
+// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
+// Balanced trees: S. M. LaValle: Planning Algorithms. 2006, section 5.5.3.
+namespace gpu_planning_scene::core
+{
+namespace
+{
+// Keeps a round short for every range.
+constexpr std::size_t kMaxPieces = 64;
+
+// Every eighth round grows the larger tree: the smaller one may be in a pocket that is easier to find from outside.
+constexpr std::size_t kRoundsOfBothTrees = 8;
+
+// Vertices of the smaller tree per random branch of a round. The branches of a round grow independently of each other,
+// so in a small tree many of them would grow into the same region.
+constexpr std::size_t kVerticesPerBranch = 8;
+constexpr std::size_t kLeastBranches = 2;
+
+// In a large tree, the search for the nearest vertex takes time, so the clock is read after this many branches.
+constexpr std::size_t kBranchesBetweenStops = 16;
+
+// Between two roots, a free straight line saves the most work. There are few of these lines, so each gets many segments
+// at once.
+constexpr std::size_t kPiecesBetweenRoots = 32;
+
+// A projection that moves a state by more than this part of the range has left the neighbourhood of its motion.
+constexpr double kLongestProjected = 2.0;
+
+// A projected step that comes nearer to the target by less than this part of the range would only fill the tree along
+// the ends of the tolerances.
+constexpr double kLeastProgress = 0.1;
+
+// Draws of a random state within the largest length. If that is little more than the distance of the roots, few states
+// are within it, and the last draw is taken.
+constexpr std::size_t kDrawsWithinLength = 128;
+
+BidirectionalTree::Side otherThan(BidirectionalTree::Side side)
+{
+  return side == BidirectionalTree::Start ? BidirectionalTree::Goal : BidirectionalTree::Start;
+}
+}  // namespace
+
+BidirectionalTree::BidirectionalTree(const ompl::base::Planner& planner)
+  : information_(planner.getSpaceInformation()),
+    sampler_(information_->allocStateSampler()),
+    trees_{RrtTree(planner), RrtTree(planner)}
+{
+}
+
+BidirectionalTree::~BidirectionalTree()
+{
+  for (ompl::base::State* state : scratch_)
+    information_->freeState(state);
+}
+
+void BidirectionalTree::addRoot(Side side, const ompl::base::State* state)
+{
+  const Vertex& root = trees_[side].add(state, nullptr);
+  roots_[side].push_back(root.state);
+  if (trees_[otherThan(side)].size() != 0)
+    connections_.push_back({otherThan(side), nullptr, &root, kPiecesBetweenRoots});
+}
+
+void BidirectionalTree::remove(Side side, const std::vector<const Vertex*>& vertices)
+{
+  trees_[side].remove(vertices);
+  connections_.erase(std::remove_if(connections_.begin(), connections_.end(),
+                                    [](const Connection& connection) {
+                                      return connection.to->removed || (connection.from && connection.from->removed);
+                                    }),
+                     connections_.end());
+}
+
+ompl::base::State* BidirectionalTree::scratch()
+{
+  if (scratch_used_ == scratch_.size())
+    scratch_.push_back(information_->allocState());
+  return scratch_[scratch_used_++];
+}
+
+/// The next motions towards the target of a connection, under path constraints: each step towards the target is
+/// projected onto the constraints, and the motions end where a projection fails or comes no nearer to the target.
+/// D. Berenson, S. Srinivasa, D. Ferguson, J. Kuffner: Manipulation planning on constraint manifolds. ICRA 2009
+/// (ConstrainedExtend).
+void BidirectionalTree::addProjected(const MotionValidator& validator, const ompl::base::State* to, bool reaches,
+                                     double range, std::size_t max_pieces, Attempt& attempt)
+{
+  const ompl::base::State* last = attempt.connection.from->state;
+  double distance = information_->distance(last, to);
+  while (attempt.states.size() < max_pieces)
+  {
+    if (reaches && distance <= range)
+    {
+      attempt.states.push_back(to);
+      return;
+    }
+    ompl::base::State* state = scratch();
+    information_->getStateSpace()->interpolate(last, to, std::min(1.0, range / distance), state);
+    if (!validator.project(state))
+      return;
+    const double rest = information_->distance(state, to);
+    if (rest > distance - kLeastProgress * range || information_->distance(last, state) > kLongestProjected * range)
+      return;
+    attempt.states.push_back(state);
+    last = state;
+    distance = rest;
+  }
+}
+
+/// The next motions towards the target of a connection.
+BidirectionalTree::Attempt BidirectionalTree::pieces(const MotionValidator& validator, Connection connection,
+                                                     double range)
+{
+  if (!connection.from)
+    connection.from = &trees_[connection.side].nearest(connection.to->state);
+  Attempt attempt{connection, {}};
+  if (validator.isConstrained())
+  {
+    addProjected(validator, connection.to->state, true, range, connection.max_pieces, attempt);
+    return attempt;
+  }
+  const double distance = information_->distance(connection.from->state, connection.to->state);
+  const double count = std::max(1.0, std::ceil(distance / range));
+  while (attempt.states.size() < connection.max_pieces)
+  {
+    const double piece = static_cast<double>(attempt.states.size()) + 1.0;
+    if (piece >= count)
+    {
+      attempt.states.push_back(connection.to->state);
+      break;
+    }
+    ompl::base::State* state = scratch();
+    information_->getStateSpace()->interpolate(connection.from->state, connection.to->state, piece / count, state);
+    attempt.states.push_back(state);
+  }
+  return attempt;
+}
+
+/// The tree whose turn it is to grow random branches.
+BidirectionalTree::Side BidirectionalTree::growingSide()
+{
+  const Side smaller = trees_[Start].size() <= trees_[Goal].size() ? Start : Goal;
+  return ++rounds_ % kRoundsOfBothTrees == 0 ? otherThan(smaller) : smaller;
+}
+
+std::size_t BidirectionalTree::branchesOfRound(std::size_t max_branches) const
+{
+  // The first round tries the straight motions between the roots.
+  if (rounds_ == 1)
+    return 0;
+  const std::size_t smaller = std::min(trees_[Start].size(), trees_[Goal].size());
+  return std::min(max_branches, std::max(kLeastBranches, smaller / kVerticesPerBranch));
+}
+
+/// A lower bound of the length of paths through a state, from a root to a root of the other tree.
+double BidirectionalTree::lengthThrough(const ompl::base::State* state) const
+{
+  double sum = 0.0;
+  for (const std::vector<const ompl::base::State*>& roots : roots_)
+  {
+    double least = std::numeric_limits<double>::infinity();
+    for (const ompl::base::State* root : roots)
+      least = std::min(least, information_->distance(root, state));
+    sum += least;
+  }
+  return sum;
+}
+
+BidirectionalTree::Attempt BidirectionalTree::randomBranch(const MotionValidator& validator, Side side,
+                                                           const Limits& limits)
+{
+  const double range = limits.range;
+  ompl::base::State* state = scratch();
+  sampler_->sampleUniform(state);
+  const bool is_limited = std::isfinite(limits.largest_length);
+  for (std::size_t i = 1; is_limited && i < kDrawsWithinLength && lengthThrough(state) >= limits.largest_length; ++i)
+    sampler_->sampleUniform(state);
+  const Vertex& from = trees_[side].nearest(state);
+  if (validator.isConstrained())
+  {
+    Attempt attempt{{side, &from, nullptr, 1}, {}};
+    addProjected(validator, state, false, range, 1, attempt);
+    return attempt;
+  }
+  const double distance = information_->distance(from.state, state);
+  if (distance > range)
+    information_->getStateSpace()->interpolate(from.state, state, range / distance, state);
+  return {{side, &from, nullptr, 1}, {state}};
+}
+
+/// Adds the valid first motions of an attempt to the tree. Returns the last vertex; `done` gets the number of valid
+/// motions.
+const RrtTree::Vertex& BidirectionalTree::advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done)
+{
+  const Vertex* tip = attempt.connection.from;
+  for (done = 0; done < attempt.states.size() && valid[done] != 0; ++done)
+    if (!attempt.connection.to || attempt.states[done] != attempt.connection.to->state)
+      tip = &trees_[attempt.connection.side].add(attempt.states[done], tip);
+  return *tip;
+}
+
+std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionValidator& validator, const Limits& limits,
+                                                                const ompl::base::PlannerTerminationCondition& ptc)
+{
+  scratch_used_ = 0;
+  const Side side = growingSide();
+  std::vector<Attempt> attempts;
+  for (const Connection& connection : connections_)
+    attempts.push_back(pieces(validator, connection, limits.range));
+  const std::size_t branches = branchesOfRound(limits.branches);
+  for (std::size_t i = 0; i < branches; ++i)
+  {
+    if (i % kBranchesBetweenStops == kBranchesBetweenStops - 1 && ptc)
+      break;
+    attempts.push_back(randomBranch(validator, side, limits));
+  }
+
+  // The motions get the direction that they will have in the path.
+  std::vector<MotionValidator::Motion> motions;
+  for (const Attempt& attempt : attempts)
+  {
+    const ompl::base::State* last = attempt.connection.from->state;
+    for (const ompl::base::State* state : attempt.states)
+    {
+      motions.emplace_back(attempt.connection.side == Start ? last : state,
+                           attempt.connection.side == Start ? state : last);
+      last = state;
+    }
+  }
+  const std::vector<std::uint8_t> valid = validator.validateCoarsely(motions, ptc);
+  if (ptc)  // motions without a verdict are reported as invalid
+    return {};
+  connections_.clear();
+
+  std::vector<Meeting> meetings;
+  const std::uint8_t* first = valid.data();
+  for (const Attempt& attempt : attempts)
+  {
+    const Connection& connection = attempt.connection;
+    std::size_t done = 0;
+    const Vertex& tip = advance(attempt, first, done);
+    first += attempt.states.size();
+    if (!connection.to && done != 0)
+      connections_.push_back({otherThan(connection.side), nullptr, &tip, 1});
+    if (!connection.to || attempt.states.empty() || done < attempt.states.size())
+      continue;
+    if (attempt.states.back() == connection.to->state)
+      meetings.push_back(connection.side == Start ? Meeting{&tip, connection.to} : Meeting{connection.to, &tip});
+    else
+      connections_.push_back({connection.side, &tip, connection.to, std::min(kMaxPieces, 2 * connection.max_pieces)});
+  }
+  return meetings;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include <ompl/base/Planner.h>
+#include <ompl/base/goals/GoalSampleableRegion.h>
+#include <ompl/geometric/PathGeometric.h>
+
+#include "gpu_planning_scene/planning/motion_validator.h"
+#include "planning/search/bidirectional_tree.h"
+
+namespace gpu_planning_scene::core
+{
+/// The search of BatchRrtConnect. Two trees grow by motions that are checked coarsely. If they meet, there is a path
+/// through the meeting; its motions are proven by the validator's own rule. Not thread-safe.
+class RrtSearch
+{
+ public:
+  using Path = std::shared_ptr<ompl::geometric::PathGeometric>;
+
+  explicit RrtSearch(const ompl::base::Planner& planner);
+
+  BidirectionalTree& trees() { return trees_; }
+
+  /// Grows the trees by one round. Returns a solution, or null.
+  Path runRound(const MotionValidator& validator, const ompl::base::GoalSampleableRegion& goal,
+                const BidirectionalTree::Limits& limits, const ompl::base::PlannerTerminationCondition& ptc);
+
+  /// Proves the paths through the meetings found so far, shortest first. Returns the first path that is proven before
+  /// `ptc` returns true, or null. Invalid motions are removed from the trees. Motions without a verdict stay.
+  Path provenPath(const MotionValidator& validator, const ompl::base::PlannerTerminationCondition& ptc);
+
+  /// The path to the vertex that is closest to the goal, up to its first motion that is not proven before `ptc` returns
+  /// true; null if no motion is proven.
+  Path approximatePath(const MotionValidator& validator, const ompl::base::PlannerTerminationCondition& ptc) const;
+
+  /// The distance to the goal from the vertex that is closest to it; infinite if there is none.
+  double distanceToGoal() const;
+
+  void addTo(ompl::base::PlannerData& data) const;
+
+ private:
+  using Vertex = RrtTree::Vertex;
+
+  /// A meeting that is not checked yet, and the path through it.
+  struct Candidate
+  {
+    BidirectionalTree::Meeting meeting;
+    Path path;
+  };
+
+  void addCandidate(const ompl::base::GoalSampleableRegion& goal, const BidirectionalTree::Meeting& meeting);
+  void lookAtNewVertices(const ompl::base::GoalSampleableRegion& goal);
+  bool isProven(const MotionValidator& validator, const BidirectionalTree::Meeting& meeting,
+                const ompl::base::PlannerTerminationCondition& ptc);
+  const Vertex* closest() const;
+
+  ompl::base::SpaceInformationPtr information_;
+  BidirectionalTree trees_;
+  std::vector<Candidate> candidates_;
+  /// Meeting of the last solution. Its goal vertex is null if its start vertex is in the goal region.
+  BidirectionalTree::Meeting meeting_{nullptr, nullptr};
+  std::vector<double> distances_;  // from the vertices of the start tree to the goal
+};
+}  // namespace gpu_planning_scene::core
