@@ -12,8 +12,8 @@
 #include "command_line/command_line.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/planning/collision_free_ik.h"
+#include "planning/arm_study.h"
 #include "scene/frame.h"
-#include "support/arms.h"
 #ifdef GPS_HAS_KDL
 #include "planning/kdl_peer.h"
 #endif
@@ -154,13 +154,12 @@ void studyArm(const Arm& arm, std::size_t count, std::uint64_t seed, CsvTable& t
 void study(const CommandLine& arguments)
 {
   const std::size_t count = arguments.count("--poses", 10000, 1, 1000000);
-  const std::uint64_t seed = arguments.count("--seed", 1, 0, 1000000000);
-  CsvTable table(arguments.value("--out", "."), "ik.csv",
+  const ArmStudySettings settings(arguments);
+  CsvTable table(settings.out, "ik.csv",
                  {"arm", "solver", "poses", "solved", "off_pose", "off_limits", "colliding", "largest_error",
                   "median_us", "p95_us", "ms_per_1000"});
-  for (const Arm& arm : realArms())
-    if (arm.name.find(arguments.value("--arm", "")) != std::string::npos)
-      studyArm(arm, count, seed, table);
+  for (const Arm& arm : settings.arms)
+    studyArm(arm, count, settings.seed, table);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core::benchmark
@@ -169,14 +168,9 @@ int main(int argc, char** argv)
 {
   using namespace gpu_planning_scene::core;
   return runTool(
-      {"ik_study",
-       "[--poses N] [--arm TEXT] [--out FOLDER]",
+      {"ik_study", "[--poses N] [options]",
        "Solves inverse kinematics for poses that collision-free random states of real arms reach, and judges "
        "the solutions by plain forward kinematics, limits and the checker.",
-       {{"--poses", "N", "poses per arm (10000)"},
-        {"--arm", "TEXT", "only arms with this text in their name"},
-        {"--seed", "N", "of the random states (1)"},
-        {"--out", "FOLDER", "folder of ik.csv (.)"}},
-       benchmark::study},
+       benchmark::ArmStudySettings::options({"--poses", "N", "poses per arm (10000)"}), benchmark::study},
       argc, argv);
 }

@@ -16,8 +16,8 @@
 #include "gpu_planning_scene/interpolation.h"
 #include "gpu_planning_scene/inverse_kinematics.h"
 #include "gpu_planning_scene/planning/cartesian_path.h"
+#include "planning/arm_study.h"
 #include "scene/frame.h"
-#include "support/arms.h"
 #include "support/states_along.h"
 
 namespace gpu_planning_scene::core::benchmark
@@ -157,12 +157,11 @@ void studyArm(const Arm& arm, std::size_t count, std::uint64_t seed, CsvTable& t
 void study(const CommandLine& arguments)
 {
   const std::size_t count = arguments.count("--lines", 1000, 1, 1000000);
-  const std::uint64_t seed = arguments.count("--seed", 1, 0, 1000000000);
-  CsvTable table(arguments.value("--out", "."), "lines.csv",
+  const ArmStudySettings settings(arguments);
+  CsvTable table(settings.out, "lines.csv",
                  {"arm", "lines", "whole", "deviation", "joint_step", "states", "colliding", "median_ms"});
-  for (const Arm& arm : realArms())
-    if (arm.name.find(arguments.value("--arm", "")) != std::string::npos)
-      studyArm(arm, count, seed, table);
+  for (const Arm& arm : settings.arms)
+    studyArm(arm, count, settings.seed, table);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core::benchmark
@@ -170,14 +169,9 @@ void study(const CommandLine& arguments)
 int main(int argc, char** argv)
 {
   using namespace gpu_planning_scene::core;
-  return runTool({"line_study",
-                  "[--lines N] [--arm TEXT] [--out FOLDER]",
+  return runTool({"line_study", "[--lines N] [options]",
                   "Follows random straight lines with the tips of real arms among random boxes, and judges the paths "
                   "at ten times the resolution: deviation from the line, largest joint step, collisions.",
-                  {{"--lines", "N", "lines per arm (1000)"},
-                   {"--arm", "TEXT", "only arms with this text in their name"},
-                   {"--seed", "N", "of the random boxes and lines (1)"},
-                   {"--out", "FOLDER", "folder of lines.csv (.)"}},
-                  benchmark::study},
+                  benchmark::ArmStudySettings::options({"--lines", "N", "lines per arm (1000)"}), benchmark::study},
                  argc, argv);
 }

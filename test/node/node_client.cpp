@@ -3,6 +3,7 @@
 #include <random>
 
 #include "gpu_planning_scene/cpu_checker.h"
+#include "node/messages/pose_messages.h"
 #include "node/parameters/node_parameters.h"
 #include "scene/frame.h"
 
@@ -36,16 +37,7 @@ Eigen::Vector3d pointOf(const Shape& shape)
 
 geometry_msgs::Pose poseAt(const Eigen::Isometry3d& pose)
 {
-  const Eigen::Quaterniond rotation(pose.linear());
-  geometry_msgs::Pose message;
-  message.position.x = pose.translation().x();
-  message.position.y = pose.translation().y();
-  message.position.z = pose.translation().z();
-  message.orientation.x = rotation.x();
-  message.orientation.y = rotation.y();
-  message.orientation.z = rotation.z();
-  message.orientation.w = rotation.w();
-  return message;
+  return poseOf(pose);
 }
 
 geometry_msgs::Pose poseAt(const Eigen::Vector3d& position)

@@ -61,7 +61,7 @@ AnimatedBodies::AnimatedBodies(const PlanningScene& scene, const Group& group,
   places_.erase(places_.begin());
   array_.markers.erase(array_.markers.begin());  // deletes all markers, and would make RViz build them anew
   for (std::size_t i = 0; i < places_.size(); ++i)
-    places_[i].pose = isometryOf(array_.markers[i].pose.position, array_.markers[i].pose.orientation);
+    places_[i].pose = isometryOf(array_.markers[i].pose);
 }
 
 const visualization_msgs::MarkerArray& AnimatedBodies::at(const std::vector<double>& state)

@@ -26,8 +26,7 @@ void AnimationPublisher::show(std::shared_ptr<const ShownPlan> plan)
 {
   if (!publisher_)
     return;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  next_ = std::move(plan);
+  next_.put(std::move(plan));
 }
 
 /// Returns a message that deletes the markers of the plan before.
@@ -52,11 +51,7 @@ void AnimationPublisher::publish()
   const std::size_t before = std::exchange(subscribers_, publisher_.getNumSubscribers());
   if (subscribers_ == 0)
     return;
-  std::shared_ptr<const ShownPlan> plan;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    plan = std::move(next_);
-  }
+  const std::shared_ptr<const ShownPlan> plan = next_.take();
   if (plan)
     publisher_.publish(begin(*plan));
   if (!bodies_)

@@ -3,15 +3,14 @@
 #include <chrono>
 #include <cstddef>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
 #include <ros/node_handle.h>
 
 #include "node/markers/animated_bodies.h"
+#include "node/markers/newest_plan.h"
 #include "node/markers/path_animation.h"
-#include "node/markers/shown_plan.h"
 
 namespace gpu_planning_scene::core
 {
@@ -32,8 +31,7 @@ class AnimationPublisher
 
   const std::size_t max_triangles_;  // of a message
   ros::Publisher publisher_;
-  std::mutex mutex_;
-  std::shared_ptr<const ShownPlan> next_;  // guarded by mutex_; null after its animation has begun
+  NewestPlan next_;
 
   // Of the timer's thread.
   std::shared_ptr<const RobotModel> robot_;

@@ -16,19 +16,14 @@ PathPublisher::PathPublisher(ros::NodeHandle& own, double rate, std::size_t max_
 
 void PathPublisher::show(std::shared_ptr<const ShownPlan> plan)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  next_ = std::move(plan);
+  next_.put(std::move(plan));
 }
 
 void PathPublisher::publish()
 {
   if (publisher_.getNumSubscribers() == 0)
     return;
-  std::shared_ptr<const ShownPlan> plan;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    plan = std::move(next_);
-  }
+  const std::shared_ptr<const ShownPlan> plan = next_.take();
   if (!plan)
     return;
   visualization_msgs::MarkerArray array = pathMarkers(*plan->scene, plan->waypoints, plan->group, max_triangles_);

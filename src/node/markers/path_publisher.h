@@ -1,11 +1,10 @@
 #pragma once
 
 #include <memory>
-#include <mutex>
 
 #include <ros/node_handle.h>
 
-#include "node/markers/shown_plan.h"
+#include "node/markers/newest_plan.h"
 
 namespace gpu_planning_scene::core
 {
@@ -26,8 +25,7 @@ class PathPublisher
 
   const std::size_t max_triangles_;
   ros::Publisher publisher_;
-  std::mutex mutex_;
-  std::shared_ptr<const ShownPlan> next_;  // guarded by mutex_; null after it was published
+  NewestPlan next_;
   ros::WallTimer timer_;
 };
 }  // namespace gpu_planning_scene::core

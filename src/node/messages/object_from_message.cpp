@@ -17,11 +17,6 @@ std::size_t hashOfMesh(const Mesh& mesh)
   return hash;
 }
 
-Eigen::Isometry3d poseFrom(const geometry_msgs::Pose& pose)
-{
-  return isometryOf(pose.position, pose.orientation);
-}
-
 Operation operationOf(const CollisionObject& message)
 {
   switch (message.operation)
@@ -74,7 +69,7 @@ class ShapeReader
       {
         shapes_.push_back({read(messages[i])});
         if (i < poses.size())
-          shapes_.back().pose = poseFrom(poses[i]);
+          shapes_.back().pose = isometryOf(poses[i]);
       }
       catch (const Error& error)
       {
@@ -146,13 +141,13 @@ ObjectChange objectChangeFrom(const CollisionObject& message, InlineMeshes& mesh
     return change;
   change.frame = {message.header.frame_id, static_cast<std::int64_t>(message.header.stamp.toNSec())};
   if (!isUnset(message.pose))
-    change.pose = poseFrom(message.pose);
+    change.pose = isometryOf(message.pose);
   change.type = {message.type.key, message.type.db};
   if (message.subframe_poses.size() != message.subframe_names.size())
     throw Error("object '" + message.id + "': " + std::to_string(message.subframe_poses.size()) +
                 " subframe_poses for " + std::to_string(message.subframe_names.size()) + " subframe_names");
   for (std::size_t i = 0; i < message.subframe_names.size(); ++i)
-    if (!change.subframes.emplace(message.subframe_names[i], poseFrom(message.subframe_poses[i])).second)
+    if (!change.subframes.emplace(message.subframe_names[i], isometryOf(message.subframe_poses[i])).second)
       throw Error("object '" + message.id + "': subframe '" + message.subframe_names[i] + "' is given twice");
   const bool has_shapes = !message.primitives.empty() || !message.meshes.empty() || !message.planes.empty();
   if (change.operation != Operation::Move || has_shapes)
@@ -160,7 +155,7 @@ ObjectChange objectChangeFrom(const CollisionObject& message, InlineMeshes& mesh
   else
     for (const auto* poses : {&message.primitive_poses, &message.mesh_poses, &message.plane_poses})
       for (const geometry_msgs::Pose& pose : *poses)
-        change.shape_poses.push_back(poseFrom(pose));
+        change.shape_poses.push_back(isometryOf(pose));
   return change;
 }
 

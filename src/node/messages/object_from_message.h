@@ -39,4 +39,8 @@ Eigen::Isometry3d isometryOf(const Position& position, const geometry_msgs::Quat
 {
   return Eigen::Translation3d(position.x, position.y, position.z) * rotationOf(orientation);
 }
+inline Eigen::Isometry3d isometryOf(const geometry_msgs::Pose& pose)
+{
+  return isometryOf(pose.position, pose.orientation);
+}
 }  // namespace gpu_planning_scene::core

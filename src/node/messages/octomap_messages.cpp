@@ -28,8 +28,7 @@ std::optional<ObjectChange> octomapChangeFrom(const OctomapWithPose& message, st
     return change;
   }
   change.frame = {message.header.frame_id, static_cast<std::int64_t>(message.header.stamp.toNSec())};
-  change.pose = isUnset(message.origin) ? Eigen::Isometry3d::Identity()
-                                        : isometryOf(message.origin.position, message.origin.orientation);
+  change.pose = isUnset(message.origin) ? Eigen::Isometry3d::Identity() : isometryOf(message.origin);
   return change;
 }
 

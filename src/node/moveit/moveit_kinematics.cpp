@@ -10,6 +10,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "node/endpoints/topic_warnings.h"
+#include "node/messages/object_from_message.h"
 #include "node/messages/pose_messages.h"
 #include "node/messages/to_messages.h"
 #include "node/moveit/mimic_joints.h"
@@ -121,15 +122,6 @@ Constraints oursOf(const moveit_msgs::Constraints& theirs)
     to.parameterization = from.parameterization;
   }
   return ours;
-}
-
-Eigen::Isometry3d isometryOf(const geometry_msgs::Pose& pose)
-{
-  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
-  isometry.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
-  const geometry_msgs::Quaternion& q = pose.orientation;
-  isometry.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized().toRotationMatrix();
-  return isometry;
 }
 
 /// Newer versions of MoveIt's message have this field.

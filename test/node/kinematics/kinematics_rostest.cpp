@@ -13,6 +13,7 @@
 #include <gpu_planning_scene/ComputeIk.h>
 #include <gpu_planning_scene/PlanMotion.h>
 
+#include "node/messages/object_from_message.h"
 #include "node/node_client.h"
 
 namespace gpu_planning_scene::core
@@ -31,15 +32,6 @@ geometry_msgs::PoseStamped stamped(const Eigen::Isometry3d& pose, const std::str
   message.header.frame_id = frame;
   message.pose = poseAt(pose);
   return message;
-}
-
-Eigen::Isometry3d isometryOf(const geometry_msgs::Pose& pose)
-{
-  Eigen::Isometry3d isometry = Eigen::Isometry3d::Identity();
-  isometry.translation() = Eigen::Vector3d(pose.position.x, pose.position.y, pose.position.z);
-  const geometry_msgs::Quaternion& q = pose.orientation;
-  isometry.linear() = Eigen::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix();
-  return isometry;
 }
 
 double angleBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b)

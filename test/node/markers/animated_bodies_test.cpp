@@ -46,7 +46,7 @@ MarkerArray animated(const PlanningScene& scene, double x, std::size_t max_trian
 /// The first point of the marker, or the centre of a marker without points, in the planning frame.
 Eigen::Vector3d firstPoint(const Marker& marker)
 {
-  const Eigen::Isometry3d pose = isometryOf(marker.pose.position, marker.pose.orientation);
+  const Eigen::Isometry3d pose = isometryOf(marker.pose);
   if (marker.points.empty())
     return pose.translation();
   return pose * Eigen::Vector3d(marker.points[0].x, marker.points[0].y, marker.points[0].z);

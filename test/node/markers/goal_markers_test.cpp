@@ -128,7 +128,7 @@ TEST(GoalMarkers, AxesStandInTheGoalPose)
   EXPECT_EQ(1.0F, axes[0].colors[1].r);
   EXPECT_EQ(1.0F, axes[0].colors[3].g);
   EXPECT_EQ(1.0F, axes[0].colors[5].b);
-  const Eigen::Isometry3d placed = isometryOf(axes[0].pose.position, axes[0].pose.orientation);
+  const Eigen::Isometry3d placed = isometryOf(axes[0].pose);
   const auto point = [&](std::size_t i)
   { return Eigen::Vector3d(placed * Eigen::Vector3d(axes[0].points[i].x, axes[0].points[i].y, axes[0].points[i].z)); };
   EXPECT_LT((point(0) - pose.translation()).norm(), 1e-9);

@@ -15,6 +15,7 @@
 #include <moveit_msgs/MoveItErrorCodes.h>
 
 #include "node/child_node.h"
+#include "node/messages/pose_messages.h"
 #include "node/moveit/moveit_client.h"
 #include "node/persistent_call.h"
 
@@ -72,20 +73,6 @@ class MoveItKinematicsOverRos : public testing::Test
       state.setVariablePosition(joints.name[i], joints.position[i]);
     state.update();
     return state;
-  }
-
-  static geometry_msgs::Pose poseOf(const Eigen::Isometry3d& pose)
-  {
-    geometry_msgs::Pose message;
-    const Eigen::Quaterniond rotation(pose.linear());
-    message.position.x = pose.translation().x();
-    message.position.y = pose.translation().y();
-    message.position.z = pose.translation().z();
-    message.orientation.x = rotation.x();
-    message.orientation.y = rotation.y();
-    message.orientation.z = rotation.z();
-    message.orientation.w = rotation.w();
-    return message;
   }
 
   static moveit_msgs::GetPositionIK ikFor(const Eigen::Isometry3d& pose)

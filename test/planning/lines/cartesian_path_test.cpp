@@ -66,6 +66,20 @@ class Lines : public testing::Test
     return length * Eigen::Vector3d(normal(generator_), normal(generator_), normal(generator_)).normalized();
   }
 
+  /// Draws starts until the lines that `set_lines` gives to the query are followed to their end.
+  template <class SetLines>
+  CartesianPath wholePath(const SetLines& set_lines)
+  {
+    CartesianPath path;
+    for (int i = 0; i < 1000 && path.fraction < 1.0; ++i)
+    {
+      drawStart();
+      set_lines();
+      path = followLines(scene_, checker_, query_);
+    }
+    return path;
+  }
+
   /// Calls `look` with states along the path.
   template <class Look>
   void alongPath(const CartesianPath& path, const Look& look) const
@@ -154,14 +168,12 @@ TEST_F(Lines, EndAtAnObstacleThatIsNamed)
 {
   const Arm& arm = arms_->front();
   use(arm);
-  CartesianPath free_path;
-  for (int i = 0; i < 1000 && free_path.fraction < 1.0; ++i)
-  {
-    drawStart();
-    query_.waypoints = {start()};
-    query_.waypoints.front().translation() += randomVector(0.2);
-    free_path = followLines(scene_, checker_, query_);
-  }
+  const CartesianPath free_path = wholePath(
+      [&]
+      {
+        query_.waypoints = {start()};
+        query_.waypoints.front().translation() += randomVector(0.2);
+      });
   ASSERT_EQ(1.0, free_path.fraction);
   auto blocked = std::make_shared<PlanningScene>(*scene_);
   WorldObject box;
@@ -182,17 +194,15 @@ TEST_F(Lines, EndAtAnObstacleThatIsNamed)
 TEST_F(Lines, PassSeveralWaypoints)
 {
   use(arms_->front());
-  CartesianPath path;
-  for (int i = 0; i < 1000 && path.fraction < 1.0; ++i)
-  {
-    drawStart();
-    Eigen::Isometry3d first = start();
-    first.translation().z() += 0.05;
-    Eigen::Isometry3d second = first;
-    second.translation().x() += 0.05;
-    query_.waypoints = {first, second, start()};
-    path = followLines(scene_, checker_, query_);
-  }
+  const CartesianPath path = wholePath(
+      [&]
+      {
+        Eigen::Isometry3d first = start();
+        first.translation().z() += 0.05;
+        Eigen::Isometry3d second = first;
+        second.translation().x() += 0.05;
+        query_.waypoints = {first, second, start()};
+      });
   ASSERT_EQ(1.0, path.fraction);
   for (const Eigen::Isometry3d& waypoint : query_.waypoints)
   {
@@ -206,14 +216,12 @@ TEST_F(Lines, PassSeveralWaypoints)
 TEST_F(Lines, EndWherePathConstraintsEnd)
 {
   use(arms_->front());
-  CartesianPath path;
-  for (int i = 0; i < 1000 && path.fraction < 1.0; ++i)
-  {
-    drawStart();
-    query_.waypoints = {start()};
-    query_.waypoints.front().translation().z() += 0.1;
-    path = followLines(scene_, checker_, query_);
-  }
+  CartesianPath path = wholePath(
+      [&]
+      {
+        query_.waypoints = {start()};
+        query_.waypoints.front().translation().z() += 0.1;
+      });
   ASSERT_EQ(1.0, path.fraction);
   PositionConstraint below;
   below.link = tip_;
@@ -229,14 +237,12 @@ TEST_F(Lines, ThatPathConstraintsEndAreFreeUpToThere)
 {
   const Arm& arm = arms_->front();
   use(arm);
-  CartesianPath whole;
-  for (int i = 0; i < 1000 && whole.fraction < 1.0; ++i)
-  {
-    drawStart();
-    query_.waypoints = {start()};
-    query_.waypoints.front().translation() += randomVector(0.3);
-    whole = followLines(scene_, checker_, query_);
-  }
+  const CartesianPath whole = wholePath(
+      [&]
+      {
+        query_.waypoints = {start()};
+        query_.waypoints.front().translation() += randomVector(0.3);
+      });
   ASSERT_EQ(1.0, whole.fraction);
   // The constraint ends at 0.8 of the line, and the box stands in its middle.
   const Eigen::Vector3d end = query_.waypoints.front().translation();
@@ -263,14 +269,12 @@ TEST_F(Lines, ThatNeedTooManyStatesEndWithThem)
 {
   use(arms_->front());
   query_.check_collisions = false;
-  CartesianPath path;
-  for (int i = 0; i < 1000 && path.fraction < 1.0; ++i)
-  {
-    drawStart();
-    query_.waypoints = {start()};
-    query_.waypoints.front().translation() += randomVector(0.3);
-    path = followLines(scene_, checker_, query_);
-  }
+  CartesianPath path = wholePath(
+      [&]
+      {
+        query_.waypoints = {start()};
+        query_.waypoints.front().translation() += randomVector(0.3);
+      });
   ASSERT_EQ(1.0, path.fraction);
   const std::vector<std::vector<double>> rows = path.rows;
   query_.max_rows = rows.size();
