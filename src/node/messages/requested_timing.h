@@ -6,9 +6,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// How to compute the times of the path of a request (PlanMotion or ComputeCartesianPath); no value if the request wants
-/// none. `max_deviation`: see PathTimingOptions; 0 under path constraints, because a rounded corner could leave them.
-/// Throws Error for a scaling factor that is neither 0 nor within its range, and for a group without times.
+/// How to compute the times of the path of a request (PlanMotion or ComputeCartesianPath); no value if the request
+/// wants none. `max_deviation`: see PathTimingOptions; 0 under path constraints, because a rounded corner could leave
+/// them. Throws Error for a scaling factor that is neither 0 nor within its range, and for a group without times.
 template <class Request>
 std::optional<PathTimingOptions> requestedTiming(const Request& request, const RobotModel& robot, double max_deviation,
                                                  const MotionCheckerOptions& motions)
