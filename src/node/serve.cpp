@@ -86,11 +86,12 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
 
   const MemoryGuard memory(options.max_memory);
   const SceneStore::Lookup look_up = [&lookup](const StampedFrame& frame) { return lookup(frame, lookup.deadline()); };
+  const OtherFrames others{look_up, [&lookup](const std::string& frame) { return lookup.parents(frame); }};
   CheckServices checks(store, server, memory,
                        {server_options.max_states, options.max_motion_checks, options.max_inspected_states,
                         options.max_contacts, server_options.max_waiting_requests, plan_options.motions.rule,
                         std::chrono::seconds(1), server_options.max_waiting_requests},
-                       look_up);
+                       others);
   PathPublisher paths(own, options.marker_rate, options.marker_triangles);
   AnimationPublisher animation(own, options.animation_rate, options.marker_triangles);
   const PlanService::Show show_plan = [&](const std::shared_ptr<const ShownPlan>& plan)
@@ -98,10 +99,10 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
     paths.show(plan);
     animation.show(plan);
   };
-  PlanService plans(own, store, look_up, make_cpu_checker, memory, show_plan, plan_options);
+  PlanService plans(own, store, others, make_cpu_checker, memory, show_plan, plan_options);
   plans.prepare();
   KinematicsServices kinematics(
-      store, look_up, make_cpu_checker,
+      store, others, make_cpu_checker,
       [&checks](const std::shared_ptr<const PlanningScene>& of) { return checks.inspectorOf(of); }, memory,
       kinematics_options);
   SceneServices changes(store, look_up, memory, setup);

@@ -156,7 +156,7 @@ class Plan
     return copy;
   }
 
-  ob::GoalPtr goalOf(const std::vector<ob::ScopedState<>>& states);
+  ob::GoalPtr goalOf(const CheckedEndpoints& endpoints);
   void findPath(const PlannerFactory& factory, const ob::GoalPtr& goals);
   std::string faultOf(const og::PathGeometric* path, const ob::Goal* goals) const;
   void finish(og::PathGeometric& path, const ob::GoalPtr& goals, const std::string& planner);
@@ -203,23 +203,26 @@ std::string Plan::faultOf(const og::PathGeometric* path, const ob::Goal* goals) 
   return "";
 }
 
-/// The goal for the planner. Null, with the fault in the result, if no state of a goal region is found.
-ob::GoalPtr Plan::goalOf(const std::vector<ob::ScopedState<>>& states)
+/// The goal for the planner. Null, with the fault in the result, if there is no goal state and no state of a goal
+/// region is found.
+ob::GoalPtr Plan::goalOf(const CheckedEndpoints& endpoints)
 {
   if (query_.goal_regions.empty())
   {
     const auto goals = std::make_shared<ob::GoalStates>(information_);
-    for (const ob::ScopedState<>& goal : states)
+    for (const ob::ScopedState<>& goal : endpoints.goals)
       goals->addState(goal);
     return goals;
   }
   const std::uint64_t seed = query_.seed != 0 ? query_.seed : std::random_device{}();
   const auto goals = std::make_shared<GoalRegions>(information_, scene_, checker_, regionsOf(query_, *space_),
-                                                   query_.start, states, seed);
+                                                   query_.start, endpoints.goals, seed);
   if (goals->prepare(within(query_.seconds - secondsSince(begin_))))
     return goals;
   bool in_collision = false;
-  result_.message = goals->fault(in_collision);
+  const std::string& beside = endpoints.fault_beside_regions;
+  result_.message =
+      beside + (beside.empty() ? "" : "; ") + goals->fault(beside.empty() ? "goal" : "goal region", in_collision);
   result_.status = in_collision ? PlanningStatus::GoalInCollision : PlanningStatus::GoalUnreachable;
   return nullptr;
 }
@@ -292,7 +295,7 @@ PlanningResult Plan::run(const PlannerFactory& factory)
   const CheckedEndpoints endpoints = checkEndpoints(*scene_, *checker_, space_, query_, constraints_.get());
   result_.status = endpoints.status;
   result_.message = endpoints.message;
-  const ob::GoalPtr goal = endpoints.message.empty() ? goalOf(endpoints.goals) : nullptr;
+  const ob::GoalPtr goal = endpoints.message.empty() ? goalOf(endpoints) : nullptr;
   endpoint_seconds_ = result_.planning_seconds = secondsSince(begin_);
   if (goal)
     findPath(factory, goal);

@@ -107,7 +107,7 @@ class Handlers
           store_,
           [](std::shared_ptr<const PlanningScene> scene) { return std::make_shared<CpuChecker>(std::move(scene)); },
           fewStates()),
-      checks_(store_, server_, memory_, fewChecks(), frameOfTf),
+      checks_(store_, server_, memory_, fewChecks(), {frameOfTf}),
       scenes_(store_, frameOfTf, memory_),
       clouds_(store_, frameOfTf, memory_, fewVoxels(), "cloud")
   {
@@ -238,7 +238,7 @@ class Handlers
     const Snapshot now = store_.snapshot();
     const RequestedState start = requestedStart(request, now);
     PlanningQuery query = queryFrom(request, now, start, config, plannersOf(request.group), fewGoals());
-    addRegions(request, *now.scene, frameOfTf, fewGoals().max_goals, query);
+    addRegions(request, *now.scene, {frameOfTf}, fewGoals().max_goals, query);
     planWarnings(request, now, start);
     requestedTiming(request, *now.scene->robot, 0.05, query.motions);
     requireWithinGroup(query, now.scene->robot);

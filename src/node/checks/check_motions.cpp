@@ -25,7 +25,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
       {
         memory_.require();
         const RequestedScene scene =
-            requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix);
+            requestedScene(store_, others_.pose, request.scene_diff, request.allowed_collision_matrix);
         const Snapshot& now = scene.now;
         const RobotModel& robot = *now.scene->robot;
         const PartialState current = now.partialState();
@@ -61,7 +61,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
             current.known.begin(), current.known.end(), [](bool known) { return known; });
         if (const KinematicConstraints constraints =
                 requestedPathConstraints(request.path_constraints, *now.scene, request.group,
-                                         is_known ? current.values.data() : nullptr, lookup_);
+                                         is_known ? current.values.data() : nullptr, others_);
             !constraints.isEmpty())
         {
           const PathConstraints path(now.scene->robot, request.group, constraints);

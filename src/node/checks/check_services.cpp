@@ -14,12 +14,12 @@ constexpr std::chrono::milliseconds kShutdownGrace{4000};  // longest wait for t
 }  // namespace
 
 CheckServices::CheckServices(const SceneStore& store, CheckServer& server, const MemoryGuard& memory,
-                             const CheckServicesOptions& options, SceneStore::Lookup lookup)
+                             const CheckServicesOptions& options, OtherFrames others)
   : store_(store),
     server_(server),
     memory_(memory),
     options_(options),
-    lookup_(std::move(lookup)),
+    others_(std::move(others)),
     inspections_(kInspections, options.max_waiting_inspections),
     revision_waits_(options.max_revision_waits, 0)
 {

@@ -9,6 +9,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/state_inspector.h"
 #include "node/messages/messages.h"
+#include "node/messages/other_frames.h"
 #include "service/admission.h"
 #include "service/check_server.h"
 #include "service/memory_guard.h"
@@ -33,9 +34,9 @@ struct CheckServicesOptions
 class CheckServices
 {
  public:
-  /// `lookup`: finds the frames of a request's scene_diff that the scene does not have.
+  /// `others`: the frames of requests that the scene does not have.
   CheckServices(const SceneStore& store, CheckServer& server, const MemoryGuard& memory,
-                const CheckServicesOptions& options, SceneStore::Lookup lookup);
+                const CheckServicesOptions& options, OtherFrames others);
 
   CheckStates::Response checkStates(const CheckStates::Request& request);
   CheckMotions::Response checkMotions(const CheckMotions::Request& request);
@@ -59,7 +60,7 @@ class CheckServices
   CheckServer& server_;
   const MemoryGuard& memory_;
   const CheckServicesOptions options_;
-  const SceneStore::Lookup lookup_;
+  const OtherFrames others_;
   Admission inspections_;
   Admission revision_waits_;
   std::atomic<bool> stopping_{false};

@@ -74,7 +74,7 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         CheckJob job;
         const std::optional<Snapshot> wanted = wantedScene(request.scene_revision);
         const RequestedScene scene =
-            requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix, {}, wanted);
+            requestedScene(store_, others_.pose, request.scene_diff, request.allowed_collision_matrix, {}, wanted);
         const Snapshot& now = scene.now;
         const RobotModel& robot = *now.scene->robot;
         NamedRow rows{request.joint_names, request.positions};

@@ -116,8 +116,9 @@ CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::
         memory_.require();
         server_.requireStateCount(
             std::max(request.joint_trajectory.points.size(), request.multi_dof_joint_trajectory.points.size()));
-        RequestedScene scene = requestedScene(store_, lookup_, request.scene_diff, request.allowed_collision_matrix,
-                                              startOf(*store_.snapshot().scene->robot, request));
+        RequestedScene scene =
+            requestedScene(store_, others_.pose, request.scene_diff, request.allowed_collision_matrix,
+                           startOf(*store_.snapshot().scene->robot, request));
         const RobotModel& robot = *scene.now.scene->robot;
         const RequestedTrajectory trajectory = requestedTrajectory(robot, request);
         requireWholeRotations(robot, trajectory.columns);

@@ -59,7 +59,7 @@ ComputeCartesianPath::Response KinematicsServices::computeCartesianPath(const Re
       {
         memory_.require();
         const Admission::Pass pass(admission_);
-        const RequestedScene requested = requestedScene(store_, lookup_, request.scene_diff, {});
+        const RequestedScene requested = requestedScene(store_, others_.pose, request.scene_diff, {});
         const std::shared_ptr<const PlanningScene>& scene = requested.now.scene;
         std::vector<std::string> warnings = requested.warnings;
         CartesianQuery query;
@@ -72,7 +72,7 @@ ComputeCartesianPath::Response KinematicsServices::computeCartesianPath(const Re
                            {"named_start", request.named_start}, requested.now.partialState(), "the start");
         query.start = start.state;
         addStateWarnings(requested.now, request.group, start, "the start", warnings);
-        PoseReader reader(*scene, query.start.data(), lookup_);
+        PoseReader reader(*scene, query.start.data(), others_.pose);
         for (std::size_t i = 0; i < request.waypoints.size(); ++i)
           query.waypoints.push_back(reader.pose(request.waypoints[i], "waypoints[" + std::to_string(i) + "]"));
         setSteps(request, query);
@@ -82,7 +82,7 @@ ComputeCartesianPath::Response KinematicsServices::computeCartesianPath(const Re
         if (!request.motion_rule.empty())
           query.motions.rule = motionRuleFromName(request.motion_rule);
         query.path_constraints =
-            requestedPathConstraints(request.path_constraints, *scene, request.group, query.start.data(), lookup_);
+            requestedPathConstraints(request.path_constraints, *scene, request.group, query.start.data(), others_);
 
         const auto began = std::chrono::steady_clock::now();
         const std::optional<PathTimingOptions> timing = requestedTiming(

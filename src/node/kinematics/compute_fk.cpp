@@ -41,7 +41,7 @@ ComputeFk::Response KinematicsServices::computeFk(const ComputeFk::Request& requ
       [&](ComputeFk::Response& response)
       {
         memory_.require();
-        const RequestedScene requested = requestedScene(store_, lookup_, request.scene_diff, {});
+        const RequestedScene requested = requestedScene(store_, others_.pose, request.scene_diff, {});
         const Snapshot& now = requested.now;
         const RobotModel& robot = *now.scene->robot;
         const std::vector<LocatedFrame> frames = requestedFrames(*now.scene, request.frames);

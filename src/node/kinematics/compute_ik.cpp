@@ -93,7 +93,7 @@ void KinematicsServices::requireLimits(const ComputeIk::Request& request) const
 KinematicsServices::IkTask KinematicsServices::taskOf(const ComputeIk::Request& request) const
 {
   requireLimits(request);
-  RequestedScene requested = requestedScene(store_, lookup_, request.scene_diff, {});
+  RequestedScene requested = requestedScene(store_, others_.pose, request.scene_diff, {});
   IkTask task{std::move(requested.now), request.group, {}, {}, searchOptions(request), std::move(requested.warnings)};
   const PlanningScene& scene = *task.now.scene;
   const RobotModel& robot = *scene.robot;
@@ -108,7 +108,7 @@ KinematicsServices::IkTask KinematicsServices::taskOf(const ComputeIk::Request& 
   addStateWarnings(task.now, task.group, seed, "the seed", task.warnings);
 
   const bool is_known = std::all_of(current.known.begin(), current.known.end(), [](bool known) { return known; });
-  PoseReader reader(scene, is_known ? current.values.data() : nullptr, lookup_);
+  PoseReader reader(scene, is_known ? current.values.data() : nullptr, others_.pose);
   for (std::size_t i = 0; i < request.poses.size(); ++i)
     task.goals.push_back(reader.constraints(frame, request.poses[i], tolerances, "pose " + std::to_string(i)));
   return task;

@@ -17,11 +17,11 @@ KinematicsOptions kinematicsOptionsFromParameters(const ros::NodeHandle& own)
   return options;
 }
 
-KinematicsServices::KinematicsServices(const SceneStore& store, SceneStore::Lookup lookup,
+KinematicsServices::KinematicsServices(const SceneStore& store, OtherFrames others,
                                        CheckServer::MakeChecker make_checker, InspectorOf inspector_of,
                                        const MemoryGuard& memory, const KinematicsOptions& options)
   : store_(store),
-    lookup_(std::move(lookup)),
+    others_(std::move(others)),
     inspector_of_(std::move(inspector_of)),
     memory_(memory),
     options_(options),

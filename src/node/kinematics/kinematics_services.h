@@ -12,6 +12,7 @@
 #include "gpu_planning_scene/state_inspector.h"
 #include "node/checks/requested_scene.h"
 #include "node/messages/messages.h"
+#include "node/messages/other_frames.h"
 #include "service/admission.h"
 #include "service/checker_pool.h"
 #include "service/memory_guard.h"
@@ -44,9 +45,9 @@ class KinematicsServices
 
   static constexpr std::size_t kSearchingRequests = 2;  ///< at the same time
 
-  /// `lookup`: finds frames that the scene does not have. `make_checker`: makes the checkers of the searches, which
+  /// `others`: the frames that the scene does not have. `make_checker`: makes the checkers of the searches, which
   /// check few states at a time. `inspector_of`: the inspector of a scene.
-  KinematicsServices(const SceneStore& store, SceneStore::Lookup lookup, CheckServer::MakeChecker make_checker,
+  KinematicsServices(const SceneStore& store, OtherFrames others, CheckServer::MakeChecker make_checker,
                      InspectorOf inspector_of, const MemoryGuard& memory, const KinematicsOptions& options);
 
   ComputeIk::Response computeIk(const ComputeIk::Request& request);
@@ -90,7 +91,7 @@ class KinematicsServices
   }
 
   const SceneStore& store_;
-  const SceneStore::Lookup lookup_;
+  const OtherFrames others_;
   const InspectorOf inspector_of_;
   const MemoryGuard& memory_;
   const KinematicsOptions options_;

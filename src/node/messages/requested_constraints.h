@@ -3,6 +3,7 @@
 #include <string>
 
 #include "node/messages/messages.h"
+#include "node/messages/other_frames.h"
 #include "node/messages/requested_poses.h"
 #include "scene/constraints_from_message.h"
 
@@ -13,8 +14,8 @@ namespace gpu_planning_scene::core
 ConstraintFrames constraintFrames(PoseReader& reader, const PlanningScene& scene);
 
 /// Constraints of a request that hold along motions of a group. `state`: where frames that move with the robot are;
-/// null if it is not known. Throws Error for a wrong message, and for a frame that the group moves.
+/// null if it is not known. Throws Error for a wrong message, and for a frame that the group moves: a link, what a link
+/// carries, or one of the other frames that hangs on a link.
 KinematicConstraints requestedPathConstraints(const Constraints& message, const PlanningScene& scene,
-                                              const std::string& group, const double* state,
-                                              const PoseReader::Lookup& lookup);
+                                              const std::string& group, const double* state, const OtherFrames& others);
 }  // namespace gpu_planning_scene::core

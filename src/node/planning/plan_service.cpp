@@ -72,11 +72,11 @@ auto asRequestError(const Work& work)
 }
 }  // namespace
 
-PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, SceneStore::Lookup lookup,
+PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFrames others,
                          CheckServer::MakeChecker make_checker, const MemoryGuard& memory, Show show,
                          const PlanServiceOptions& options)
   : store_(store),
-    lookup_(std::move(lookup)),
+    others_(std::move(others)),
     memory_(memory),
     show_(std::move(show)),
     options_(options),
@@ -163,11 +163,11 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
 {
   const PlannerConfig config = configs_.find(request.planner, request.group);
   const std::shared_ptr<const PlannerFactory> factory = plugins_.find(config.type, configs_.names());
-  RequestedScene requested = requestedScene(store_, lookup_, request.scene_diff, {});
+  RequestedScene requested = requestedScene(store_, others_.pose, request.scene_diff, {});
   const Snapshot& now = requested.now;
   const RequestedState start = requestedStart(request, now);
   PlanningQuery query = queryFrom(request, now, start, config, configs_.ofGroup(request.group), options_);
-  addRegions(request, *now.scene, lookup_, options_.max_goals, query);
+  addRegions(request, *now.scene, others_, options_.max_goals, query);
   std::vector<std::string> warnings = std::move(requested.warnings);
   for (std::string& warning : planWarnings(request, now, start))
     warnings.push_back(std::move(warning));

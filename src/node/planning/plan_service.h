@@ -9,6 +9,7 @@
 #include <ros/node_handle.h>
 
 #include "node/markers/shown_plan.h"
+#include "node/messages/other_frames.h"
 #include "node/planning/ompl_log.h"
 #include "node/planning/plan_request.h"
 #include "planners/planner_configs.h"
@@ -28,12 +29,11 @@ class PlanService
   using Show = std::function<void(std::shared_ptr<const ShownPlan>)>;
 
   /// `make_checker`: makes checkers whose errors are those of requests. Each check should begin on the caller's thread,
-  /// because a planner checks some hundred states at a time. `lookup`: finds the frames of a request's scene_diff that
-  /// the scene does not have. `show`: gets each plan, on the thread of its request. Throws Error for wrong values in
+  /// because a planner checks some hundred states at a time. `others`: the frames of requests that the scene
+  /// does not have. `show`: gets each plan, on the thread of its request. Throws Error for wrong values in
   /// ~planners.
-  PlanService(ros::NodeHandle& own, const SceneStore& store, SceneStore::Lookup lookup,
-              CheckServer::MakeChecker make_checker, const MemoryGuard& memory, Show show,
-              const PlanServiceOptions& options);
+  PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFrames others, CheckServer::MakeChecker make_checker,
+              const MemoryGuard& memory, Show show, const PlanServiceOptions& options);
 
   /// Loads the planners that the groups have by default, and prepares a checker for each group, so that the first
   /// request takes about as long as later ones. What fails here fails again in a request, which then says why.
@@ -67,7 +67,7 @@ class PlanService
   Answer plan(const Task& task);
 
   const SceneStore& store_;
-  const SceneStore::Lookup lookup_;
+  const OtherFrames others_;
   const MemoryGuard& memory_;
   const Show show_;
   const PlanServiceOptions options_;

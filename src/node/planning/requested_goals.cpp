@@ -18,7 +18,7 @@ bool hasGoalRegions(const PlanMotion::Request& request)
   return !request.goal_poses.empty() || !request.goal_constraints.empty();
 }
 
-void addRegions(const PlanMotion::Request& request, const PlanningScene& scene, const SceneStore::Lookup& lookup,
+void addRegions(const PlanMotion::Request& request, const PlanningScene& scene, const OtherFrames& others,
                 std::size_t max_goals, PlanningQuery& query)
 {
   const std::size_t count = query.goals.size() + request.goal_poses.size() + request.goal_constraints.size();
@@ -26,7 +26,7 @@ void addRegions(const PlanMotion::Request& request, const PlanningScene& scene, 
     throw Error(std::to_string(count) + " goals are more than " + std::to_string(max_goals) + " (limits/goals)");
   if (request.goal_poses.empty() && !request.goal_link.empty())
     throw Error("goal_link is '" + request.goal_link + "', but goal_poses is empty; give the poses of the link");
-  PoseReader reader(scene, query.start.data(), lookup);
+  PoseReader reader(scene, query.start.data(), others.pose);
   const PoseTolerances tolerances =
       requestedTolerances({"goal_position_tolerance", request.goal_position_tolerance},
                           {"goal_orientation_tolerance", request.goal_orientation_tolerance}, kGoalTolerances);
@@ -46,6 +46,6 @@ void addRegions(const PlanMotion::Request& request, const PlanningScene& scene, 
       throw Error(where + " has no constraint; give at least one");
   }
   query.path_constraints =
-      requestedPathConstraints(request.path_constraints, scene, request.group, query.start.data(), lookup);
+      requestedPathConstraints(request.path_constraints, scene, request.group, query.start.data(), others);
 }
 }  // namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 
 #include "gpu_planning_scene/planning/plan_motion.h"
 #include "node/messages/messages.h"
-#include "service/scene_store.h"
+#include "node/messages/other_frames.h"
 
 namespace gpu_planning_scene::core
 {
@@ -12,7 +12,7 @@ namespace gpu_planning_scene::core
 bool hasGoalRegions(const PlanMotion::Request& request);
 
 /// Adds the goal poses, the goal constraints and the path constraints of a request to its query, which has the group
-/// and the start. `lookup`: finds frames that the scene does not have. Throws Error for a wrong request.
-void addRegions(const PlanMotion::Request& request, const PlanningScene& scene, const SceneStore::Lookup& lookup,
+/// and the start. `others`: the frames that the scene does not have. Throws Error for a wrong request.
+void addRegions(const PlanMotion::Request& request, const PlanningScene& scene, const OtherFrames& others,
                 std::size_t max_goals, PlanningQuery& query);
 }  // namespace gpu_planning_scene::core

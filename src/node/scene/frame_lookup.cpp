@@ -78,6 +78,17 @@ Eigen::Isometry3d FrameLookup::operator()(const StampedFrame& frame, Clock::time
   }
 }
 
+std::vector<std::string> FrameLookup::parents(const std::string& frame) const
+{
+  constexpr std::size_t kMost = 1000;  // as in tf2's own lookups: a wrong tree could have a loop
+  std::vector<std::string> found;
+  std::string parent;
+  for (std::string child = withoutSlash(frame); found.size() < kMost && buffer_._getParent(child, ros::Time(0), parent);
+       child = parent)
+    found.push_back(parent);
+  return found;
+}
+
 /// Why tf has no transform from the frame to the planning frame, and the remedy.
 std::string FrameLookup::fault(const std::string& frame, const ros::Time& stamp) const
 {

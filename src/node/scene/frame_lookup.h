@@ -36,6 +36,8 @@ class FrameLookup
   /// The pose of the frame at its stamp (0: the latest). Waits for the frame, at most until `until`; then throws Error
   /// that says whether the name, the connection to the planning frame or the time is at fault.
   Eigen::Isometry3d operator()(const StampedFrame& frame, Clock::time_point until) const;
+  /// The parent of a frame, the parent of its parent, and so on; empty for a frame that tf does not know.
+  std::vector<std::string> parents(const std::string& frame) const;
 
  private:
   std::string fault(const std::string& frame, const ros::Time& stamp) const;

@@ -116,11 +116,16 @@ CheckedEndpoints checkEndpoints(const PlanningScene& scene, StateChecker& checke
       endpoints.goals.emplace_back(space);
       group_space.copyFromRow(rows.data() + i * query.start.size(), endpoints.goals.back().get());
     }
-  if (endpoints.goals.empty() && query.goal_regions.empty())
+  if (!endpoints.goals.empty() || query.goals.empty())
+    return endpoints;
+  if (!query.goal_regions.empty())
   {
-    endpoints.status = faults[1].status;
-    endpoints.message = (query.goals.size() == 1 ? "the goal is " : "goal 0 is ") + faults[1].message;
+    endpoints.fault_beside_regions =
+        (query.goals.size() == 1 ? "the goal state is " : "goal state 0 is ") + faults[1].message;
+    return endpoints;
   }
+  endpoints.status = faults[1].status;
+  endpoints.message = (query.goals.size() == 1 ? "the goal is " : "goal 0 is ") + faults[1].message;
   return endpoints;
 }
 }  // namespace gpu_planning_scene::core

@@ -18,6 +18,8 @@ struct CheckedEndpoints
   PlanningStatus status = PlanningStatus::Solved;  ///< else the fault of the start or of the first goal
   std::string message;                             ///< describes the fault
   std::vector<ompl::base::ScopedState<>> goals;    ///< the goals that are within bounds and free of collision
+  /// The fault of the first goal state, if no goal state is valid and the query also has goal regions.
+  std::string fault_beside_regions = {};
 };
 
 /// Checks the start and all goal states of the query in one batch. `checker` holds `scene` already. The rows of the

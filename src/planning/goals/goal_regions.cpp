@@ -140,7 +140,7 @@ void GoalRegions::judge(Region& region, const std::vector<std::vector<double>>& 
   }
 }
 
-std::string GoalRegions::fault(bool& in_collision) const
+std::string GoalRegions::fault(const std::string& name, bool& in_collision) const
 {
   in_collision =
       std::any_of(regions_.begin(), regions_.end(), [](const auto& region) { return region->colliding != 0; });
@@ -148,8 +148,8 @@ std::string GoalRegions::fault(bool& in_collision) const
   for (std::size_t i = 0; i < regions_.size(); ++i)
   {
     Region& region = *regions_[i];
-    text += (text.empty() ? "" : "; ") +
-            (regions_.size() == 1 ? std::string("the goal ") : "goal region " + std::to_string(i) + " ");
+    text +=
+        (text.empty() ? "" : "; ") + (regions_.size() == 1 ? "the " + name : "goal region " + std::to_string(i)) + " ";
     if (region.colliding != 0)
       text += "is in collision: in the first of " + std::to_string(region.colliding) + " states, " +
               scene_->bodyName(region.collision[0]) + " and " + scene_->bodyName(region.collision[1]) + " collide";

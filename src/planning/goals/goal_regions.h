@@ -36,9 +36,9 @@ class GoalRegions : public ompl::base::GoalSampleableRegion
   /// Samples until there are some states, or no more are found, or `stop` returns true. Returns whether there are any.
   bool prepare(const std::function<bool()>& stop);
 
-  /// Why there are no states: a line for each region's fault. `in_collision` gets whether states were found that
-  /// collide.
-  std::string fault(bool& in_collision) const;
+  /// Why there are no states: the faults of the regions in one line. `name`: of the only region, "goal". `in_collision`
+  /// gets whether states were found that collide.
+  std::string fault(const std::string& name, bool& in_collision) const;
 
   /// Number of states sampled so far.
   std::size_t sampled() const { return states_.size(); }

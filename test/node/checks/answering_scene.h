@@ -11,8 +11,9 @@ namespace gpu_planning_scene::core
 /// A scene and the services that answer in it, without a ROS master.
 struct AnsweringScene
 {
-  explicit AnsweringScene(PlanningScene scene, std::size_t max_motion_checks = 1000000)
-    : store(std::move(scene), {}, {}), services(store, server, memory, {100000, max_motion_checks, 10}, nullptr)
+  explicit AnsweringScene(PlanningScene scene, std::size_t max_motion_checks = 1000000, OtherFrames others = {})
+    : store(std::move(scene), {}, {}),
+      services(store, server, memory, {100000, max_motion_checks, 10}, std::move(others))
   {
   }
 

@@ -52,7 +52,7 @@ class Service : public testing::Test
                      { return std::make_shared<CpuChecker>(std::move(scene)); },
                      {}};
   MemoryGuard memory{0};
-  CheckServices services{store, server, memory, {1000, 1000000, 10}, nullptr};
+  CheckServices services{store, server, memory, {1000, 1000000, 10}, {}};
 };
 
 TEST_F(Service, AnswersEachStateInOrder)
@@ -139,7 +139,12 @@ TEST(MotionsUnderPathConstraints, AreValidOnlyIfTheyAreProvenToFulfilThem)
           "<parent link='base'/><child link='pole'/><axis xyz='0 0 1'/><limit lower='-3' upper='3' effort='1' "
           "velocity='1'/></joint></robot>",
       "<robot name='r'><group name='mast'><joint name='turn'/></group></robot>", {});
-  AnsweringScene answering{PlanningScene(robot)};
+  const OtherFrames tf{[](const StampedFrame&) { return Eigen::Isometry3d::Identity(); },
+                       [](const std::string& frame) {
+                         return frame == "camera" ? std::vector<std::string>{"bracket", "pole", "base"}
+                                                  : std::vector<std::string>{"base"};
+                       }};
+  AnsweringScene answering(PlanningScene(robot), 1000000, tf);
   CheckServices& services = answering.services;
   CheckMotions::Request motions;
   motions.group = "mast";
@@ -163,6 +168,14 @@ TEST(MotionsUnderPathConstraints, AreValidOnlyIfTheyAreProvenToFulfilThem)
   EXPECT_FALSE(response.success);
   EXPECT_EQ(0u, response.message.find("path_constraints: the frame 'pole' moves with the group 'mast'"))
       << response.message;
+  orientation.header.frame_id = "camera";
+  EXPECT_EQ(
+      "path_constraints: the frame 'camera' moves with the group 'mast', because it hangs on the link 'pole'; give the "
+      "constraints in a frame that stands still during the motion",
+      services.checkMotions(motions).message);
+  orientation.header.frame_id = "board";
+  response = services.checkMotions(motions);
+  EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 0}), response.fulfils_constraints) << response.message;
   orientation.header.frame_id = "";
   motions.group = "";
   EXPECT_EQ("path_constraints need the group that moves; give `group`", services.checkMotions(motions).message);
@@ -231,7 +244,7 @@ class WaitingService : public Service
                            [this](std::shared_ptr<const PlanningScene> scene)
                            { return std::make_shared<GatedChecker>(std::move(scene), gate); },
                            {}};
-  CheckServices gated{store, gated_server, memory, {1000, 1000000, 10}, nullptr};
+  CheckServices gated{store, gated_server, memory, {1000, 1000000, 10}, {}};
 };
 
 TEST_F(WaitingService, VariablesThatARequestLeavesOutAreThoseOfTheRevisionThatItNames)
@@ -272,7 +285,7 @@ class WaitingInspections : public WaitingService
     answers.push_back(std::async(std::launch::async, [this, asked] { return bounded.checkStates(asked); }));
   }
 
-  CheckServices bounded{store, gated_server, memory, {1000, 1000000, 10, 10, 1}, nullptr};
+  CheckServices bounded{store, gated_server, memory, {1000, 1000000, 10, 10, 1}, {}};
   std::vector<std::future<CheckStates::Response>> answers;
 };
 
@@ -313,7 +326,7 @@ TEST_F(Service, TooManyStatesAreRefusedBeforeAnythingIsMadeOfThem)
   options.max_states = 2;
   CheckServer small(
       store, [](auto scene) { return std::make_shared<CpuChecker>(std::move(scene)); }, options);
-  CheckServices bounded(store, small, memory, {}, nullptr);
+  CheckServices bounded(store, small, memory, {}, {});
   EXPECT_NE(std::string::npos,
             bounded.checkStates(request({"turn"}, {0.0, 0.0, std::nan("")})).message.find("limits/request_states"));
   CheckMotions::Request motions;
@@ -414,8 +427,7 @@ TEST_F(Service, AMatrixOfARequestHasNoMoreEntriesThanTheLimit)
   for (AllowedCollisionEntry& row : asked.allowed_collision_matrix.entry_values)
     row.enabled = {0, 0};
   EXPECT_TRUE(answer(asked).success);
-  const std::string message =
-      CheckServices(strict, server, memory, {1000, 1000000, 10}, nullptr).checkStates(asked).message;
+  const std::string message = CheckServices(strict, server, memory, {1000, 1000000, 10}, {}).checkStates(asked).message;
   EXPECT_NE(std::string::npos, message.find("limits/matrix_entries")) << message;
 }
 
@@ -482,7 +494,7 @@ TEST_F(Service, NoMoreStatesAreInspectedThanTheLimit)
 
 TEST_F(Service, MoreContactsThanTheLimitAreRefusedAndNotCutOff)
 {
-  CheckServices bounded(store, server, memory, {1000, 1000000, 10, 2}, nullptr);
+  CheckServices bounded(store, server, memory, {1000, 1000000, 10, 2}, {});
   CheckStates::Request asked = request({"turn", "slide"}, {0.0, 1.0, 0.0, 1.0, 0.0, 1.0});
   asked.max_contacts = 1;
   const CheckStates::Response refused = bounded.checkStates(asked);
@@ -667,7 +679,7 @@ TEST_F(Service, ANameAndValuesOfOneEndOfAMotionAreRefused)
 
 TEST_F(Service, MotionsThatNeedTooManyChecksAreNotFreeAndMarked)
 {
-  CheckServices few{store, server, memory, {1000, 8, 10}, nullptr};
+  CheckServices few{store, server, memory, {1000, 8, 10}, {}};
   CheckMotions::Request asked;
   asked.joint_names = {"slide", "turn"};
   asked.starts = {-1.0, 0.0, 0.0, 0.0};
@@ -768,7 +780,7 @@ TEST_F(Service, AReportHasEachNameOnOneLine)
 TEST_F(Service, AProcessThatUsesTooMuchMemoryTakesNothingMore)
 {
   const MemoryGuard full(1);
-  CheckServices guarded(store, server, full, {}, nullptr);
+  CheckServices guarded(store, server, full, {}, {});
   EXPECT_NE(std::string::npos,
             guarded.checkStates(request({"turn", "slide"}, {0.0, 0.0})).message.find("limits/memory"));
 }
@@ -790,7 +802,7 @@ TEST_F(Service, AFailureOfTheDeviceIsAnAnswer)
   CheckServer failing(store, [](std::shared_ptr<const PlanningScene>) { return std::make_shared<FailingChecker>(); },
                       {});
   const auto response =
-      CheckServices(store, failing, memory, {}, nullptr).checkStates(request({"turn", "slide"}, {0.0, 0.0}));
+      CheckServices(store, failing, memory, {}, {}).checkStates(request({"turn", "slide"}, {0.0, 0.0}));
   EXPECT_FALSE(response.success);
   EXPECT_EQ("device lost", response.message);
 }
@@ -812,7 +824,7 @@ class UnknownBase : public testing::Test
                      { return std::make_shared<CpuChecker>(std::move(scene)); },
                      {}};
   MemoryGuard memory{0};
-  CheckServices services{store, server, memory, {1000, 1000000, 10}, nullptr};
+  CheckServices services{store, server, memory, {1000, 1000000, 10}, {}};
 };
 
 TEST_F(UnknownBase, IsAssumedAtTheOriginAndEachAnswerSaysSo)
@@ -871,7 +883,7 @@ TEST_F(UnknownBase, IsThatOfTfWhereARequestGivesOnlyTheOtherJoints)
                            [](std::shared_ptr<const PlanningScene> checked)
                            { return std::make_shared<CpuChecker>(std::move(checked)); },
                            {});
-  CheckServices checks(on_tf, on_tf_server, memory, {1000, 1000000, 10}, nullptr);
+  CheckServices checks(on_tf, on_tf_server, memory, {1000, 1000000, 10}, {});
   const CheckStates::Response states = checks.checkStates(request({"slide", "turn"}, {0.0, 0.0, -1.0, 0.0}));
   EXPECT_EQ((std::vector<std::uint8_t>{0, 1}), states.valid) << states.message;
 
@@ -903,7 +915,7 @@ TEST_F(UnknownBase, AndPassiveJointsNeedNoValue)
                              [](std::shared_ptr<const PlanningScene> checked)
                              { return std::make_shared<CpuChecker>(std::move(checked)); },
                              {});
-  CheckServices checks(casters, casters_server, memory, {1000, 1000000, 10}, nullptr);
+  CheckServices checks(casters, casters_server, memory, {1000, 1000000, 10}, {});
   const CheckStates::Response states = checks.checkStates(request({"slide"}, {0.0}));
   EXPECT_TRUE(states.success) << states.message;
   EXPECT_EQ(std::vector<std::uint8_t>{1}, states.valid);

@@ -55,7 +55,7 @@ struct Node
                      { return std::make_shared<CpuChecker>(std::move(scene)); },
                      {}};
   MemoryGuard memory{0};
-  CheckServices checks{store, server, memory, {100000, 1000000, 1000}, lookup};
+  CheckServices checks{store, server, memory, {100000, 1000000, 1000}, {lookup}};
   SceneServices scenes{store, lookup, memory};
 };
 

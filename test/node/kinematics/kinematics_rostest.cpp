@@ -6,12 +6,14 @@
 #include <functional>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gpu_planning_scene/ComputeCartesianPath.h>
 #include <gpu_planning_scene/ComputeFk.h>
 #include <gpu_planning_scene/ComputeIk.h>
 #include <gpu_planning_scene/PlanMotion.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 
 #include "node/messages/object_from_message.h"
 #include "node/node_client.h"
@@ -589,6 +591,42 @@ ComputeCartesianPath::Request linesThrough(const std::vector<Eigen::Isometry3d>&
   for (const Eigen::Isometry3d& pose : poses)
     request.waypoints.push_back(stamped(pose));
   return request;
+}
+
+TEST_F(PathsUnderConstraints, AreRefusedInAFrameOfTfThatHangsOnALinkOfTheGroup)
+{
+  tf2_ros::StaticTransformBroadcaster broadcaster;
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  for (const auto& [parent, child] : {std::pair<std::string, std::string>(robot->planningFrame(), kTip),
+                                      {kTip, "bracket"},
+                                      {"bracket", "lens"},
+                                      {robot->planningFrame(), "wall_board"}})
+  {
+    geometry_msgs::TransformStamped& transform = transforms.emplace_back();
+    transform.header.frame_id = parent;
+    transform.child_frame_id = child;
+    transform.transform.rotation.w = 1.0;
+  }
+  broadcaster.sendTransform(transforms);
+  PlanMotion::Request plan = planTo({tipPose(kStart)});
+  ComputeCartesianPath::Request lines = linesThrough({tipPose(kStart)});
+  for (const std::string frame : {"lens", "wall_board"})
+  {
+    plan.path_constraints = levelPalm();
+    plan.path_constraints.orientation_constraints[0].header.frame_id = frame;
+    lines.path_constraints = plan.path_constraints;
+    if (frame == "lens")
+    {
+      const std::string fault =
+          "path_constraints: the frame 'lens' moves with the group 'arm', because it hangs on the link 'palm'";
+      expectRefused<PlanMotion>("plan", plan, fault);
+      expectRefused<ComputeCartesianPath>("compute_cartesian_path", lines, fault);
+      continue;
+    }
+    EXPECT_EQ(PlanMotion::Response::SOLVED, call<PlanMotion>("plan", plan).status);
+    const auto followed = call<ComputeCartesianPath>("compute_cartesian_path", lines);
+    EXPECT_EQ(1.0, followed.fraction) << followed.message;
+  }
 }
 
 TEST_F(StraightLinesService, FollowTheLinesAndAreFree)

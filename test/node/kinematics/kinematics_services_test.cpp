@@ -35,7 +35,7 @@ struct KinematicsNode
   MemoryGuard memory{0};
   KinematicsServices services{
       store,
-      lookup,
+      {lookup},
       [](std::shared_ptr<const PlanningScene> scene) { return std::make_shared<CpuChecker>(std::move(scene)); },
       [](const std::shared_ptr<const PlanningScene>& scene) { return std::make_shared<StateInspector>(scene); },
       memory,

@@ -141,6 +141,28 @@ TEST_F(PoseGoals, StandBesideGoalStates)
   EXPECT_EQ(armAt(0.5), result.waypoints.back());
 }
 
+TEST_F(PoseGoals, AndGoalStatesAreNamedIfAllOfThemAreInvalid)
+{
+  const std::vector<double> inside = armAt(0.5);
+  addBox("crate", tipAt(inside).translation(), {0.2, 0.2, 0.2});
+  Eigen::Isometry3d far = tipAt(armAt(1.2));
+  far.translation().x() += 5.0;
+  query_.goal_regions = {poseOf(far)};
+  query_.goals = {inside};
+  PlanningResult result = plan();
+  EXPECT_EQ(PlanningStatus::GoalUnreachable, result.status);
+  EXPECT_EQ(0U, result.message.find("the goal state is in collision: ")) << result.message;
+  EXPECT_NE(std::string::npos, result.message.find("; the goal region is not reached: ")) << result.message;
+  query_.goals.push_back(armAt(7.0));
+  query_.goal_regions.push_back(poseOf(far));
+  result = plan();
+  EXPECT_EQ(0U, result.message.find("goal state 0 is in collision: ")) << result.message;
+  EXPECT_NE(std::string::npos, result.message.find("; goal region 0 is not reached: ")) << result.message;
+  EXPECT_NE(std::string::npos, result.message.find("; goal region 1 is not reached: ")) << result.message;
+  query_.goals = {armAt(-1.2)};
+  EXPECT_EQ(PlanningStatus::Solved, plan().status);
+}
+
 TEST_F(PoseGoals, OutOfReachAreNamedWithTheirDistance)
 {
   Eigen::Isometry3d far = tipAt(armAt(1.2));
