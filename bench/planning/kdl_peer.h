@@ -11,8 +11,8 @@
 
 namespace gpu_planning_scene::core::benchmark
 {
-/// KDL's numerical solver with joint limits (ChainIkSolverPos_NR_JL), which MoveIt's default plugin is built on, from
-/// the given state and then from random states.
+/// KDL's numerical solver with joint limits (ChainIkSolverPos_NR_JL), on which MoveIt's default plugin is built. Its
+/// first attempt begins at the given state, the others at random states.
 class KdlPeer
 {
  public:

@@ -86,7 +86,7 @@ double distanceFrom(const Eigen::Vector3d& point, const Eigen::Vector3d& from, c
 /// The first words of a message, without names.
 std::string kindOf(const std::string& message)
 {
-  for (const std::string kind : {"collision of", "the pose is not reached", "joint '", "the joints would leave"})
+  for (const char* const kind : {"collision of", "the pose is not reached", "joint '", "the joints would leave"})
     if (message.rfind(kind, 0) == 0)
       return kind;
   return message;

@@ -33,14 +33,14 @@ struct IkSolutions
   std::vector<double> nearest;
 };
 
-/// The link whose pose a group's inverse kinematics is for, if nobody names one: the child link of the group's last
-/// joint. Throws Error if the group's joints do not form one chain.
+/// The link whose pose is wanted if a request names no link: the child link of the group's last joint. Throws Error if
+/// the group's joints do not form one chain.
 int tipOf(const RobotModel& robot, const Group& group);
 
 /// Inverse kinematics: the values of a group's variables at which links fulfil constraints, for example have a pose.
 /// The method is numerical: damped least squares from the given state, from states near it and from random states
 /// within the limits. It takes trees of joints of all types, joints that mimic a joint of the group, and planar and
-/// floating bases. It knows no collisions: see CollisionFreeIk.
+/// floating bases. It does not check collisions: see solveCollisionFree.
 ///
 /// T. Sugihara: Solvability-unconcerned inverse kinematics by the Levenberg-Marquardt method. IEEE Transactions on
 /// Robotics 27(5), 2011. Damped least squares: Y. Nakamura, H. Hanafusa: Inverse kinematic solutions with singularity

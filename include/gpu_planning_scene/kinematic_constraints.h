@@ -81,9 +81,10 @@ struct KinematicConstraints
   /// The links of the constraints, ascending, each once.
   std::vector<int> links() const;
 
-  /// Throws Error that begins with `where` if a link or variable is unknown, if a number is not finite, a tolerance is
-  /// below 1e-9 m or 5e-10 rad, an orientation is not a rotation, or if a range is empty, outside the limits of its
-  /// variable, that of a quaternion's component, or contradicts another range of it.
+  /// Throws Error that begins with `where` if a link or variable is unknown, if a number is not finite, if a tolerance
+  /// is below 1e-9 m or 5e-10 rad, if an orientation is not a rotation, or for a wrong range: it is empty, it is
+  /// outside the limits of its variable, its variable is a component of a quaternion, or another range of the variable
+  /// contradicts it.
   void validate(const RobotModel& robot, const std::string& where) const;
 };
 

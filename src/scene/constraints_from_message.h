@@ -46,7 +46,7 @@ Eigen::Quaterniond rotationOf(const Message& message, const std::string& where)
 template <class Message>
 Eigen::Vector3d vectorOf(const Message& message, const std::string& where)
 {
-  const Eigen::Vector3d vector(message.x, message.y, message.z);
+  Eigen::Vector3d vector(message.x, message.y, message.z);
   if (!vector.allFinite())
     throw Error(where + " has a number that is not finite");
   return vector;

@@ -24,9 +24,9 @@ class PathConstraints
   /// Moves a state to a near one that fulfils the constraints. Returns false if there is none near it.
   bool project(double* state) const { return kinematics_.project(state); }
 
-  /// True if the straight motion between two states is proven to fulfil the constraints: samples fulfil them by more
-  /// than the displacements of links and points between the samples. A motion that keeps the tolerances only by a
-  /// hair's breadth gets false.
+  /// True if the straight motion between two states is proven to fulfil the constraints: the slack of each sample is
+  /// larger than the displacements of links and points up to the next sample. A motion that almost reaches the end of a
+  /// tolerance gets false.
   bool holdAlong(const double* from, const double* to) const;
 
  private:

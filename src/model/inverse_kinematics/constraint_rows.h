@@ -13,7 +13,7 @@ class ConstraintRows
 {
  public:
   ConstraintRows(const KinematicConstraints& constraints, const KinematicChains& chains);
-  ~ConstraintRows();  // in the library, which also allocates: Eigen's allocators differ in code with sanitizers
+  ~ConstraintRows();  // in the library, which allocates the rows: code with sanitizers has another allocator of Eigen
   ConstraintRows(const ConstraintRows&) = delete;
   ConstraintRows& operator=(const ConstraintRows&) = delete;
 

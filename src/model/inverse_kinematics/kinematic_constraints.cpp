@@ -13,7 +13,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// Above the rounding of link poses. KinematicConstraints::pose makes three smaller tolerances of an angle of 1e-9 rad.
+// Above the rounding of link poses. KinematicConstraints::pose turns an angle of 1e-9 rad into three smaller ones.
 constexpr double kLeastLength = 1e-9;  // metres
 constexpr double kLeastAngle = 5e-10;  // radians
 

@@ -15,7 +15,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr BodyColor kAnimationColor{190, 100, 200, 150};
-constexpr std::size_t kMaxSampledStates = 16;  // in which it is found out which bodies move
+constexpr std::size_t kMaxSampledStates = 16;  // of the path, to find the bodies that move
 
 std::vector<std::size_t> bodiesThatMove(const PlanningScene& scene, const Group& group,
                                         const std::vector<std::vector<double>>& path)

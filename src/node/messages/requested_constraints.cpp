@@ -42,7 +42,7 @@ KinematicConstraints requestedPathConstraints(const Constraints& message, const 
     const std::optional<LocatedFrame> located = locateFrame(scene, frame.name);
     if (located)
       require_unmoved(located->link, frame, "");
-    const Eigen::Isometry3d pose = of_reader(frame);  // after it, the parents of the frame are known
+    Eigen::Isometry3d pose = of_reader(frame);  // after it, the parents of the frame are known
     if (!located && others.parents)
       for (const std::string& parent : others.parents(frame.name))
         require_unmoved(robot.linkIndex(parent), frame, ", because it hangs on the link '" + parent + "'");

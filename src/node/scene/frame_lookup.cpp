@@ -28,7 +28,7 @@ ros::Time stampOf(const StampedFrame& frame)
 }
 }  // namespace
 
-FrameLookup::FrameLookup(std::string planning_frame, double timeout, std::function<bool()> stopping,
+FrameLookup::FrameLookup(const std::string& planning_frame, double timeout, std::function<bool()> stopping,
                          std::function<std::vector<std::string>()> scene_frames)
   : planning_frame_(withoutSlash(planning_frame)),
     timeout_(timeout),

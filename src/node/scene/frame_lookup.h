@@ -20,7 +20,7 @@ class FrameLookup
 
   /// `timeout`: seconds. `stopping`: called from any thread; when it returns true, all waits end. `scene_frames`: names
   /// of the scene's frames, one of which the caller may have meant.
-  FrameLookup(std::string planning_frame, double timeout, std::function<bool()> stopping,
+  FrameLookup(const std::string& planning_frame, double timeout, std::function<bool()> stopping,
               std::function<std::vector<std::string>()> scene_frames);
 
   /// The deadline of a lookup that starts now.

@@ -84,7 +84,7 @@ class Follower
     ats_.push_back(0.0);
   }
 
-  /// Follows the lines as far as possible. Returns why not farther, or nothing.
+  /// Follows the lines as far as possible. Returns why the path ends early; empty if it does not.
   std::string run(const std::function<bool()>& stop)
   {
     for (const double at : lines_.steps())
@@ -181,7 +181,7 @@ class Follower
       kinematics.chains().computePoses(state_.data(), workspace_);
       const StraightLines::Lengths deviation =
           lines_.deviation(workspace_.poses[static_cast<std::size_t>(query_.link)] * query_.frame, ats_.back(), at);
-      // The samples need not hit the largest deviation.
+      // Half of the bounds, because the largest deviation can be between the samples.
       if (deviation.metres > 0.5 * query_.max_deviation || deviation.radians > 0.5 * query_.max_rotation_deviation)
         return true;
     }
@@ -197,10 +197,10 @@ class Follower
   KinematicChains::Workspace workspace_;
 };
 
-/// ": 0.1 m from the wanted position"; empty without a violation.
+/// ": the next state is 0.1 m from the wanted position"; empty without a violation.
 std::string nearText(const ConstraintViolation& violation)
 {
-  return violation.isNone() ? "" : ": there, the state is " + violation.text();
+  return violation.isNone() ? "" : ": the next state is " + violation.text();
 }
 
 /// Number of motions at the beginning of the path that are valid, and the fault of the next one.
@@ -220,7 +220,7 @@ std::pair<std::size_t, std::string> validMotions(const PlanningScene& scene,
       if (stop && stop())
         fault = "the search was stopped";
       else if (!constraints.holdAlong(rows[i].data(), rows[i + 1].data()))
-        fault = "the path constraints are not proven to hold on" + nearText(constraints.violation(rows[i + 1].data()));
+        fault = "the path constraints are not proven to hold" + nearText(constraints.violation(rows[i + 1].data()));
       if (!fault.empty())
         count = i;
     }

@@ -46,8 +46,8 @@ StraightLines::StraightLines(const std::vector<Eigen::Isometry3d>& poses, const 
   if (!(at < static_cast<double>(max_poses)))
     throw Error("the lines have " + numberText(at) + " steps; they must have less than " + std::to_string(max_poses) +
                 ": take larger steps, or fewer waypoints");
-  for (double step = 1.0; step <= at; ++step)
-    steps_.push_back(step);
+  for (std::size_t step = 1; step <= static_cast<std::size_t>(at); ++step)
+    steps_.push_back(static_cast<double>(step));
 }
 
 const StraightLines::Line& StraightLines::lineAt(double at) const
@@ -66,7 +66,8 @@ StraightLines::Lengths StraightLines::deviation(const Eigen::Isometry3d& pose, d
 {
   const Line& line = lineAt(end);
   const auto fraction_of = [&line](double at) { return (at - line.begin) / (line.end - line.begin); };
-  // The nearest fraction by position and the one by orientation count by the squares of the line's two lengths.
+  // The mean of two fractions: the one with the nearest position and the one with the nearest orientation. Their
+  // weights are the squares of the line's lengths in metres and in radians.
   const Eigen::Vector3d direction = line.to.translation() - line.from.translation();
   const double by_position = direction.squaredNorm() / (unit_.metres * unit_.metres);
   const double by_orientation = line.rotation.angle() * line.rotation.angle() / (unit_.radians * unit_.radians);

@@ -22,7 +22,8 @@ namespace ob = ompl::base;
 // motions find a solution with far fewer checked states. They need more motions, but checks in bulk make these cheap.
 constexpr double kRangeOfExtent = 0.04;
 
-// The same under path constraints. A straight motion leaves the constraints by the square of its length.
+// The same under path constraints. The distance by which a straight motion leaves them grows with the square of its
+// length.
 constexpr double kConstrainedRange = 0.01;
 
 // Number of goal states taken at first, and at most in one round. More follow as the goal tree grows, as in OMPL's

@@ -34,8 +34,8 @@ constexpr std::size_t kPiecesBetweenRoots = 32;
 // A projection that moves a state by more than this part of the range has left the neighbourhood of its motion.
 constexpr double kLongestProjected = 2.0;
 
-// A projected step that comes nearer to the target by less than this part of the range would only fill the tree along
-// the ends of the tolerances.
+// A projected step that comes nearer to the target by less than this part of the range is not added. Such steps would
+// fill the tree with states at the ends of the tolerances.
 constexpr double kLeastProgress = 0.1;
 
 // Draws of a random state within the largest length. If that is little more than the distance of the roots, few states

@@ -230,7 +230,7 @@ TEST_F(Lines, EndWherePathConstraintsEnd)
   query_.path_constraints.positions.push_back(below);
   path = followLines(scene_, checker_, query_);
   EXPECT_NEAR(0.5, path.fraction, 0.11);
-  EXPECT_NE(std::string::npos, path.message.find("path constraints are not proven to hold on")) << path.message;
+  EXPECT_NE(std::string::npos, path.message.find("path constraints are not proven to hold: ")) << path.message;
 }
 
 TEST_F(Lines, ThatPathConstraintsEndAreFreeUpToThere)
