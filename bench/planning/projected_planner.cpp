@@ -118,16 +118,16 @@ ProjectedPath planProjected(const std::shared_ptr<const PlanningScene>& scene,
         const std::vector<double> row = rows.rowOf(x);
         return checker->check(row.data(), 1, group).valid.front() != 0;
       });
-  const auto stateOf = [&](const std::vector<double>& row)
+  const auto state_of = [&](const std::vector<double>& row)
   {
     ob::ScopedState<ob::ConstrainedStateSpace> state(space);
     state->copy(valuesOf(rows, row));
     return state;
   };
-  setup.addStartState(stateOf(start));
+  setup.addStartState(state_of(start));
   const auto goal = std::make_shared<ob::GoalStates>(information);
   for (const std::vector<double>& row : goals)
-    goal->addState(stateOf(row));
+    goal->addState(state_of(row));
   setup.setGoal(goal);
   setup.setPlanner(std::make_shared<og::RRTConnect>(information));
   setup.setup();

@@ -211,7 +211,7 @@ TEST_F(ThinFingers, CollideInAMirroredStateAndInVeryFewRandomStates)
   const double mirrored[] = {-1.0, 0.8194, 0.0, 1.0, -0.8194, 0.0};
   EXPECT_EQ(0, checker.check(mirrored, 1).valid[0]);
   std::mt19937_64 generator(20261127);
-  std::vector<double> states(100000 * 6);
+  std::vector<double> states(std::size_t{100000} * 6);
   for (std::size_t i = 0; i < 100000; ++i)
     robot->randomState(generator, states.data() + i * 6);
   const BatchResult random = checker.check(states.data(), 100000);

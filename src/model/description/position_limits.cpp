@@ -156,6 +156,7 @@ void applyJointLimits(const std::vector<JointLimits>& limits, RobotTree& tree, s
     if (variableCount(owner.joint->type) > 1 && owner.joint->name == entry.variable)
       throw Error(entry.source + ": joint '" + entry.variable + "' has several variables; name them as '" +
                   tree.variables[static_cast<std::size_t>(owner.joint->first_variable)].name + "' and so on");
+    const int variable = owner.joint->first_variable + owner.part;
     const std::string prefix = entry.source + ": the " + (has_positions ? "position" : "velocity") + " limits of '" +
                                entry.variable + "' are not used, because it ";
     if (const std::string reason = has_positions ? whyWithoutPositionLimits(owner) : whyWithoutLimits(*owner.joint);
@@ -165,12 +166,11 @@ void applyJointLimits(const std::vector<JointLimits>& limits, RobotTree& tree, s
     {
       if (std::string degrees = mayBeInDegrees(entry, *owner.joint); !degrees.empty())
         warnings.push_back(std::move(degrees));
-      const int variable = owner.joint->first_variable + owner.part;
       if (setLimits(entry, tree.variables[static_cast<std::size_t>(variable)]))
         tree.widened.push_back(variable);
     }
     if (whyWithoutLimits(*owner.joint).empty())
-      setVelocityLimits(entry, tree.variables[static_cast<std::size_t>(owner.joint->first_variable + owner.part)]);
+      setVelocityLimits(entry, tree.variables[static_cast<std::size_t>(variable)]);
   }
   const auto warn = [&](const char* kind, const std::vector<std::string>& names)
   {

@@ -239,7 +239,8 @@ void limitVariables(RobotTree& tree)
         std::max(0.0, kLargestLength - std::abs(joint.offset)) / std::max(std::abs(joint.multiplier), 1e-300);
     for (int i = 0; i < count; ++i)
     {
-      double& largest = tree.variables[static_cast<std::size_t>(joint.first_variable + i)].largest;
+      const int variable = joint.first_variable + i;
+      double& largest = tree.variables[static_cast<std::size_t>(variable)].largest;
       largest = std::min(largest, limit);
     }
   }

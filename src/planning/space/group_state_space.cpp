@@ -100,10 +100,11 @@ ob::RealVectorBounds translationBounds(const RobotModel& robot, const Joint& joi
   for (int i = 0; i < count; ++i)
   {
     const auto [lower, upper] = ranges[static_cast<std::size_t>(i)];
+    const int variable = joint.first_variable + i;
     if (!(upper - lower >= kLeastRange))
       throw Error("joint '" + joint.name + "' cannot be planned for: '" +
-                  robot.variables()[static_cast<std::size_t>(joint.first_variable + i)].name + "' has no range (" +
-                  numberText(lower) + " to " + numberText(upper) + "); give a workspace that has an extent in each " +
+                  robot.variables()[static_cast<std::size_t>(variable)].name + "' has no range (" + numberText(lower) +
+                  " to " + numberText(upper) + "); give a workspace that has an extent in each " +
                   "direction and meets the joint's limits, or set unbounded_translation above 0");
     bounds.setLow(i, lower);
     bounds.setHigh(i, upper);

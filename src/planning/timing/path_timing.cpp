@@ -125,7 +125,7 @@ bool movesDiffDrive(const RobotModel& robot, const Rows& rows)
   for (const Joint& joint : robot.joints())
     for (int i = 0; joint.diff_drive && i < variableCount(joint.type); ++i)
       for (const Row& row : rows)
-        if (const auto variable = static_cast<std::size_t>(joint.first_variable + i);
+        if (const auto variable = static_cast<std::size_t>(joint.first_variable) + static_cast<std::size_t>(i);
             row[variable] != rows.front()[variable])
           return true;
   return false;

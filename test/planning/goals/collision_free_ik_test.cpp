@@ -90,7 +90,7 @@ void expectLimitsKept(const Arm& arm, const std::vector<double>& given, const st
 
 TEST(CollisionFreeIk, RealArmsReachThePosesOfFreeStates)
 {
-  const std::vector<Arm> arms = realArms();
+  const std::vector<Arm>& arms = realArms();
   if (arms.empty())
     GTEST_SKIP() << "none of the arms is here";
   for (const Arm& arm : arms)
@@ -212,7 +212,7 @@ TEST(CollisionFreeIk, SolutionsAreSortedByTheirDistance)
 
 TEST(CollisionFreeIk, ARedundantArmHasSeveralSolutions)
 {
-  const std::vector<Arm> arms = realArms();
+  const std::vector<Arm>& arms = realArms();
   const auto arm = std::find_if(arms.begin(), arms.end(), [](const Arm& each) { return each.name == "panda"; });
   if (arm == arms.end())
     GTEST_SKIP() << "panda is not here";

@@ -46,7 +46,7 @@ struct Moment
 /// joint_trajectory_controller interpolates: cubic, or quintic with the accelerations.
 Moment interpolated(const TimedPoint& from, const TimedPoint& to, double time, bool quintic)
 {
-  const int count = quintic ? 3 : 2;
+  const Eigen::Index count = quintic ? 3 : 2;
   const double length = to.seconds - from.seconds;
   // Row i: the coefficients of the i-th derivative by time / length, at the beginning and at the end.
   Eigen::MatrixXd equations = Eigen::MatrixXd::Zero(2 * count, 2 * count);
@@ -61,7 +61,7 @@ Moment interpolated(const TimedPoint& from, const TimedPoint& to, double time, b
       equations(derivative, power) = power == derivative ? factor : 0.0;
       equations(count + derivative, power) = factor;
     }
-  const auto set = [&](int row, const TimedPoint& point)
+  const auto set = [&](Eigen::Index row, const TimedPoint& point)
   {
     values.row(row) = arrayOf(point.positions).matrix().transpose();
     values.row(row + 1) = length * arrayOf(point.velocities).matrix().transpose();
