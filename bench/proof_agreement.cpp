@@ -1,5 +1,5 @@
-// proof_agreement: compares the CPU checker that uses proofs with the exact checker alone, in many random states; see
-// --help.
+// proof_agreement: compares the checkers that use proofs, on the CPU or on a device, with the exact checker alone, in
+// many random states; see --help.
 
 #include <algorithm>
 #include <atomic>
@@ -12,6 +12,7 @@
 #include "collision/exact/forest_cache.h"
 #include "collision/parallel_for.h"
 #include "command_line/command_line.h"
+#include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "support/test_scenes.h"
 
@@ -38,7 +39,18 @@ struct Counts
   std::size_t false_pair = 0;
   double seconds_exact = 0.0;
   double seconds_with_proofs = 0.0;
+  std::size_t undecided = 0;  // on the device
 };
+
+std::unique_ptr<StateChecker> makeChecker(const std::shared_ptr<const PlanningScene>& scene, const std::string& device)
+{
+  if (device.empty())
+    return std::make_unique<CpuChecker>(scene);
+  BatchCheckerOptions options;
+  options.device = device;
+  options.cpu_below = 0;
+  return std::make_unique<BatchChecker>(scene, options);
+}
 
 /// The states for which there were proofs.
 double statesWithProofs(const SceneReport& report)
@@ -53,12 +65,12 @@ double statesWithProofs(const SceneReport& report)
 class Comparison
 {
  public:
-  Comparison(const TestScene& scene, std::uint64_t seed)
+  Comparison(const TestScene& scene, const std::string& device, std::uint64_t seed)
     : scene_(scene),
       width_(scene.lower.size()),
       generator_(seed),
       exact_(scene.scene, withoutProofs()),
-      with_proofs_(scene.scene),
+      with_proofs_(makeChecker(scene.scene, device)),
       problem_(std::make_shared<const CollisionProblem>(makeProblem(*scene.scene, "", nullptr))),
       traversal_(ForestCache().traversalOf(problem_)),
       pairs_(makePairs())
@@ -67,11 +79,11 @@ class Comparison
     while (checked <= kStatesBeforeProofs)
     {
       const std::vector<double> states = scene_.randomStates(kBatch, generator_());
-      checked += with_proofs_.check(states.data(), kBatch).valid.size();
+      checked += with_proofs_->check(states.data(), kBatch).valid.size();
     }
     waitForProofs();
-    with_proofs_.check(scene_.randomStates(kBatch, generator_()).data(), kBatch);
-    if (statesWithProofs(with_proofs_.report()) == 0.0)
+    with_proofs_->check(scene_.randomStates(kBatch, generator_()).data(), kBatch);
+    if (device.empty() && statesWithProofs(with_proofs_->report()) == 0.0)
       throw Error("there are no proofs of scene " + scene.name + " to compare");
   }
 
@@ -79,11 +91,12 @@ class Comparison
   {
     const std::vector<double> states = scene_.randomStates(kBatch, generator_());
     const BatchResult exact = exact_.check(states.data(), kBatch);
-    const BatchResult proven = with_proofs_.check(states.data(), kBatch);
+    const BatchResult proven = with_proofs_->check(states.data(), kBatch);
     Counts counts;
     counts.states = kBatch;
     counts.seconds_exact = exact.seconds;
     counts.seconds_with_proofs = proven.seconds;
+    counts.undecided = proven.undecided_states;
     for (std::size_t i = 0; i < kBatch; ++i)
     {
       counts.valid += exact.valid[i];
@@ -94,7 +107,7 @@ class Comparison
     return counts;
   }
 
-  SceneReport report() { return with_proofs_.report(); }
+  SceneReport report() { return with_proofs_->report(); }
 
  private:
   /// Counts reported pairs that do not collide. Pairs that both checkers report need no check.
@@ -151,7 +164,7 @@ class Comparison
   std::size_t width_;
   std::mt19937_64 generator_;
   CpuChecker exact_;
-  CpuChecker with_proofs_;
+  std::unique_ptr<StateChecker> with_proofs_;
   std::shared_ptr<const CollisionProblem> problem_;
   std::unique_ptr<const CpuTraversal> traversal_;
   std::map<BodyPair, std::vector<CpuTraversal::OpenPair>> pairs_;
@@ -164,6 +177,7 @@ void add(const Counts& part, Counts& all)
   all.false_free += part.false_free;
   all.false_collision += part.false_collision;
   all.false_pair += part.false_pair;
+  all.undecided += part.undecided;
   all.seconds_exact += part.seconds_exact;
   all.seconds_with_proofs += part.seconds_with_proofs;
 }
@@ -189,6 +203,7 @@ void print(const std::string& name, const Counts& counts, double exact_share)
 void run(const CommandLine& arguments)
 {
   const std::string only = arguments.value("--scene", "");
+  const std::string device = arguments.value("--device", "");
   const auto seed = static_cast<std::uint64_t>(arguments.integer("--seed", 1, 0, 1LL << 62));
   const auto states = static_cast<std::size_t>(arguments.integer("--states", 1'000'000, 1, 1LL << 40));
   const std::vector<std::string>& names = benchmarkSceneNames();
@@ -208,11 +223,13 @@ void run(const CommandLine& arguments)
       std::printf("%s is left out: there is no %s\n", name.c_str(), missing.c_str());
       continue;
     }
-    Comparison comparison(testScene(name), seed);
+    Comparison comparison(testScene(name), device, seed);
     Counts counts;
     while (counts.states < states)
       add(comparison.next(), counts);
-    print(name, counts, shareOfExactTests(comparison.report()));
+    print(name, counts,
+          device.empty() ? shareOfExactTests(comparison.report())
+                         : static_cast<double>(counts.undecided) / static_cast<double>(counts.states));
     add(counts, total);
   }
   std::printf("\n%zu states, %zu wrong answers\n", total.states,
@@ -224,17 +241,20 @@ void run(const CommandLine& arguments)
 
 int main(int argc, char** argv)
 {
-  const Tool tool{
-      "proof_agreement",
-      "[--states N] [--scene NAME] [--seed S]",
-      "Compares the verdicts of the CPU checker that uses proofs (balls and tables of joint values) with those of the\n"
-      "exact checker alone, in random states of each scene of benchmark. Also checks that each reported pair of "
-      "bodies\n"
-      "collides. Prints a Markdown table.\n"
-      "Exit code: 0 no wrong answer, 1 a wrong answer or another error, 2 bad usage.",
-      {{"--states", "N", "at least N states per scene (default 1000000)"},
-       {"--scene", "NAME", "only this scene"},
-       {"--seed", "S", "seed of the random states (default 1)"}},
-      run};
+  const Tool tool{"proof_agreement",
+                  "[--states N] [--scene NAME] [--device D] [--seed S]",
+                  "Compares the verdicts of the CPU checker that uses proofs (balls and tables of joint values), or of "
+                  "a device that\n"
+                  "uses them, with those of the exact checker alone, in random states of each scene of benchmark. Also "
+                  "checks that each reported pair of "
+                  "bodies\n"
+                  "collides. Prints a Markdown table.\n"
+                  "Exit code: 0 no wrong answer, 1 a wrong answer or another error, 2 bad usage.",
+                  {{"--states", "N", "at least N states per scene (default 1000000)"},
+                   {"--scene", "NAME", "only this scene"},
+                   {"--device", "D",
+                    "the device: auto, software, an index, or part of a renderer's name (default: the CPU checker)"},
+                   {"--seed", "S", "seed of the random states (default 1)"}},
+                  run};
   return runTool(tool, argc, argv);
 }

@@ -15,7 +15,6 @@
 #define LOCATION_ROBOT_COUNT 1
 #define LOCATION_WORLD_COUNT 2
 #define LOCATION_HALF_SPACE_COUNT 3
-#define LOCATION_HALF_SPACE 4
 #define LOCATION_CANDIDATE_CAPACITY 5
 #define LOCATION_ROOT_PAIR_CAPACITY 6
 #define LOCATION_SOLID_NODES 7
@@ -62,13 +61,17 @@
 #define LOCATION_GROUND 48
 #define LOCATION_BACKGROUND 49
 #define LOCATION_FLAT_COLOR 50
-#define LOCATION_HAS_COVERS 51
-#define LOCATION_VARIABLE_COUNT 52
+#define LOCATION_OPEN_PAIR_CAPACITY 51
+#define LOCATION_LISTED 53
+#define LOCATION_IN_LIST 54
+#define LOCATION_OUT_LIST 55
+#define LOCATION_PASS 56
+#define LOCATION_HAS_QUEUES 57
 
 // --- Sizes of records ----------------------------------------------------------------------------------------------
 // A texel has 16 bytes: one element of a buffer texture, or one vec4 or uvec4 of a storage buffer.
-#define TEXEL_WORDS 4           // words of 32 bits
-#define POSE_TEXELS 3           // three rows of [rotation | translation], see geometry/pose.glsl
+#define TEXEL_WORDS 4  // words of 32 bits
+#define POSE_TEXELS 3  // three rows of [rotation | translation], see geometry/pose.glsl
 #define POSE_FLOATS 12
 #define NODE_TEXELS 2           // see problem/nodes.glsl
 #define ORIENTED_NODE_TEXELS 3  // see traversal/bounding_volume_overlap.glsl
@@ -85,8 +88,17 @@
 #define LARGE_NODE_TEXELS 1     // see tree_build/fit_boxes.comp
 #define BOUNDS_WORDS 6          // the bounds of a mesh, see tree_build/bounds.comp
 #define OUTCOME_TEXELS 2        // of one case of self_test/float_arithmetic.comp
-#define COVER_TEXELS 81         // see broad_phase/covers.glsl
-#define TABLE_AXIS_TEXELS 2     // of one variable of a joint table, see broad_phase/joint_tables.glsl
+// Records of the proofs, see proofs/records.glsl.
+#define SELF_PAIR_TEXELS 2
+#define WORLD_GROUP_TEXELS 2
+#define OBJECT_TEXELS 4
+#define INSTANCE_BOX_TEXELS 4                     // of the box of an instance: three axes, the centre
+#define INSTANCE_BALLS (1 + INSTANCE_BOX_TEXELS)  // first texel of the outer balls
+#define INSTANCE_RADII (INSTANCE_BALLS + COVER_BALLS)
+#define INSTANCE_WITNESSES (INSTANCE_RADII + COVER_BALLS / TEXEL_WORDS)
+#define INSTANCE_RECORD_TEXELS (INSTANCE_WITNESSES + COVER_BALLS)
+#define BOX_STEPS 32767.0  // of a half length, see records.glsl
+#define RECORDS_HEADER 4   // texels before the records
 
 // --- Building trees ------------------------------------------------------------------------------------------------
 // A leaf of a tree holds at most this many triangles.
@@ -117,12 +129,12 @@
 #define BUILD_ROUNDS (NEAREST_ROUNDS + FORCED_ROUNDS)
 // Size of one record of the build's list of rounds, in uints, and the places of its fields.
 #define ROUND_STRIDE 12
-#define ROUND_CLUSTER_GROUPS 0   // indirect arguments: one invocation per cluster
-#define ROUND_CLUSTERS 3         // number of clusters at the beginning of the round
-#define ROUND_CHUNK_GROUPS 4     // indirect arguments: one invocation per CHUNK clusters
-#define ROUND_FIRST_PAIR 7       // number of pairs of children made before this round
-#define ROUND_PAIR_GROUPS 8      // indirect arguments: one invocation per pair that the round made
-#define ROUND_PAIRS 11           // number of pairs that the round made
+#define ROUND_CLUSTER_GROUPS 0  // indirect arguments: one invocation per cluster
+#define ROUND_CLUSTERS 3        // number of clusters at the beginning of the round
+#define ROUND_CHUNK_GROUPS 4    // indirect arguments: one invocation per CHUNK clusters
+#define ROUND_FIRST_PAIR 7      // number of pairs of children made before this round
+#define ROUND_PAIR_GROUPS 8     // indirect arguments: one invocation per pair that the round made
+#define ROUND_PAIRS 11          // number of pairs that the round made
 
 // Bindings of the storage buffers of the tree build. OpenGL grants a shader eight of them, so buffers that no shader
 // binds together share a number. Keys, clusters and their information are read from one buffer (IN) and written to
@@ -174,19 +186,19 @@
 #define UNIT_INSTANCES 8     // the robot's first, then the world's
 #define UNIT_OBJECT_TREE 9   // see broad_phase/world_pairs.comp
 #define UNIT_WORLD_PAIRS 10  // bits [robot][world], 128 a texel
-#define UNIT_QUERIES 11     // see broad_phase/queries.glsl
+#define UNIT_QUERIES 11      // see broad_phase/queries.glsl
 #define UNIT_SPHERES 12      // [robot][state]
 #define UNIT_STATES 13       // see problem/states.glsl
 #define UNIT_LINK_SHAPES 14
 #define UNIT_ORIENTED_NODES 15
-#define UNIT_MARGINS 16      // see problem/margins.glsl
-#define UNIT_COVERS 17       // see broad_phase/covers.glsl
-#define UNIT_TABLES 18       // see broad_phase/joint_tables.glsl
+#define UNIT_MARGINS 16  // see problem/margins.glsl
+#define UNIT_PROOFS 17   // see proofs/records.glsl
+#define UNIT_FRAMES 18   // [row][state], see proofs/state_proofs.glsl
 // Bindings of the storage buffers.
 #define BINDING_COUNTERS 0
-#define BINDING_FLAGS 1       // one uint a state: STATE_* bits
-#define BINDING_HITS 2        // one uint a state: a pair that collides
-#define BINDING_A 3           // BINDING_A to BINDING_D differ from shader to shader
+#define BINDING_VERDICTS 1  // one uint a state, see traversal/verdicts.glsl
+#define BINDING_OPEN_STATES 2
+#define BINDING_A 3  // BINDING_A to BINDING_D differ from shader to shader
 #define BINDING_B 4
 #define BINDING_C 5
 #define BINDING_D 6
@@ -223,17 +235,16 @@
 #define PADDED 0
 #endif
 
-// 1 in the program of the broad phase among links that looks pairs up in joint tables.
-#ifndef JOINT_TABLES
-#define JOINT_TABLES 0
-#endif
-
 // The bits of infinity in float32. As unsigned integers, the bits of every NaN are larger.
 #define INFINITY_BITS 0x7f800000u
 
-// Bits of the verdict of a state. Both may be set; the hit then counts.
+// Bits of the verdict of a pair in a state. Both may be set; the hit then counts.
 #define STATE_HIT 1u
 #define STATE_UNDECIDED 2u
+// The verdict of a state is the packed pair that collides, or one of these words. No packed pair is one of them.
+#define VERDICT_FREE 0u
+#define VERDICT_OPEN 0xfffffffeu  // free, unless a pair that the proofs left open collides
+#define VERDICT_UNDECIDED 0xffffffffu
 
 // Kinds of the shape of an instance. SOLID_NONE is a mesh without a part that bounds a solid: it is a surface and has
 // no inside. All other kinds are solids.
@@ -259,7 +270,7 @@
 // hold the other instance: first come the robot instances, then the world instances, then the half-spaces.
 #define PAIR_OTHER_BITS 20
 #define MAX_ROBOT_INSTANCES (1 << 12)
-#define MAX_INSTANCES (1 << PAIR_OTHER_BITS)
+#define MAX_INSTANCES ((1 << PAIR_OTHER_BITS) - 2)
 
 // Most invocations that one dispatch of a part may have, so that the indices of invocations and texels do not overflow
 // 32 bits.
@@ -272,13 +283,21 @@
 // Marks an inner node in the tree over the world's objects.
 #define NO_OBJECT 0xffffffffu
 
-// Balls of the covers on the device (broad_phase/covers.glsl): a coarse level, then a fine one.
+// Balls of the covers on the device (proofs/covers.glsl): a coarse level, then a fine one.
 #define COVER_COARSE_BALLS 8
 #define COVER_FINE_BALLS 32
 #define COVER_BALLS (COVER_COARSE_BALLS + COVER_FINE_BALLS)
-// Bits of a cover.
-#define COVER_SAME_CENTERS 1u  // each witness is the centre of its outer ball
-#define COVER_UNUSABLE 2u      // the cover proves nothing
+// Kinds of the objects of the proofs (lanes::ObjectKind).
+#define OBJECT_BOX 0u
+#define OBJECT_SPHERE 1u
+#define OBJECT_CYLINDER 2u
+#define OBJECT_CONE 3u
+#define OBJECT_HALF_SPACE 4u
+#define OBJECT_BOUNDING_BOX 5u
+// A proof needs a length greater than this: the square of a smaller one may be 0.
+#define LEAST_PROVEN_LENGTH 1e-18
+// A quaternion with a smaller squared length is too short for float arithmetic.
+#define LEAST_SQUARED_QUATERNION 1e-12
 // The verdicts of a cell of a joint table, and the bits of a cell.
 #define TABLE_APART 0u
 #define TABLE_COLLIDING 1u
@@ -286,26 +305,37 @@
 #define TABLE_CELL_BITS 2
 #define TABLE_CELLS_A_WORD 16
 
-// Places of the counters (uints). Each list has a count. Its indirect arguments are written before each dispatch over
-// it.
-#define COUNTER_CANDIDATES 0
-#define COUNTER_ROOT_PAIRS 1
-#define COUNTER_NEXT_ENTRY 2      // work queues: the next entry that no invocation has taken
-#define COUNTER_OVERFLOW 3        // not 0: a list was too short or work remained, so the batch must be split
-#define COUNTER_ENTRIES_EVEN 4    // node pairs: this list and the next one are read and written in turn
-#define COUNTER_ENTRIES_ODD 5
-#define COUNTER_LEAF_PAIRS 6
-#define COUNTER_INVOCATIONS_ENDED 7    // work queues: invocations that reached their end
-#define COUNTER_INVOCATIONS_STARTED 8  // work queues: invocations that were started
-#define COUNTER_MESH_ENTRIES 9    // root pairs whose shapes are both made of triangles
-#define COUNTER_SOLID_ENTRIES 10  // root pairs with a solid
-#define COUNTER_SCRATCH 11        // never read: for shaders that must clear some counter
-#define COUNTER_DONE 15           // the serial number of the part, once all its work is done
-#define COUNTER_ARGUMENTS 12      // indirect arguments: three uints each
-#define COUNTER_LEAF_ARGUMENTS 16
-#define COUNTER_CHUNK_ARGUMENTS 20
-#define COUNTER_PASS_ENTRIES 23   // work queues: number of entries of the pass
-#define COUNTER_WORDS 24
+// Places of the counters (uints).
+#define COUNTER_OVERFLOW 0  // not 0: a list was too short or work remained, so the batch must be split
+#define COUNTER_DONE 1      // the serial number of the part, once all its work is done
+// Breadth-first traversal: lengths of lists, and indirect arguments of three uints each.
+#define COUNTER_ENTRIES_EVEN 2  // node pairs: this list and the next one are read and written in turn
+#define COUNTER_ENTRIES_ODD 3
+#define COUNTER_LEAF_PAIRS 4
+#define COUNTER_ARGUMENTS 6
+#define COUNTER_LEAF_ARGUMENTS 9
+#define COUNTER_CHUNK_ARGUMENTS 12
+// Lists that count the work groups of a dispatch over them (common/lists.glsl).
+#define LIST_OPEN_SELF_PAIRS 16
+#define LIST_OPEN_WORLD_PAIRS 20
+#define LIST_FINE_PAIRS 24
+#define LIST_OPEN_STATES 28
+#define LIST_CANDIDATES 32
+#define LIST_ROOT_PAIRS 36
+#define LIST_SOLID_ENTRIES 40  // root pairs with a solid
+#define LIST_MESH_ENTRIES 44   // root pairs whose shapes are both made of triangles
+#define LIST_SOLID_REST 48     // work queues: node pairs for the last pass
+#define LIST_MESH_REST 52
+#define LIST_WORDS 4
+#define LIST_LENGTH 3  // place of the length of a list
+// Work queues: the counters of each pass.
+#define PASS_SOLIDS 56
+#define PASS_MESHES 58
+#define PASS_SOLID_REST 60
+#define PASS_MESH_REST 62
+#define PASS_NEXT_ENTRY 0  // the next entry that no invocation has taken
+#define PASS_ENDED 1       // invocations that reached their end
+#define COUNTER_WORDS 64
 
 // Breadth-first traversal: number of node pairs that one invocation handles in sequence.
 #define LEVEL_CHUNK 8
@@ -313,12 +343,11 @@
 // Number of leaf pairs whose triangles a work group distributes over its invocations at once.
 #define LEAF_CHUNK 64
 // Work queues.
-#define QUEUE_INVOCATIONS 32   // invocations of a work group
-#define QUEUE_MAX_GROUPS 2048  // most work groups of a dispatch
-#define QUEUE_STEPS 8          // most steps of an invocation between two barriers
-#define QUEUE_STACK 48         // node pairs and leaf pairs that the memory of an invocation holds
-#define QUEUE_LAST_ROUNDS 16   // rounds of a work group after one of its invocations found the entry list empty
-#define QUEUE_FLUSH 32         // number of leaf pairs from which on the work group tests their triangles
+#define QUEUE_INVOCATIONS 32  // invocations of a work group
+#define QUEUE_STEPS 8         // most steps of an invocation between two barriers
+#define QUEUE_STACK 48        // node pairs and leaf pairs that the memory of an invocation holds
+#define QUEUE_LAST_ROUNDS 16  // rounds of a work group after one of its invocations found the entry list empty
+#define QUEUE_FLUSH 32        // number of leaf pairs from which on the work group tests their triangles
 // llvmpipe ends an invocation without an error after 65535 loop iterations. An invocation stops before that, and hands
 // its remaining work on.
 #define INVOCATION_ITERATIONS 50000

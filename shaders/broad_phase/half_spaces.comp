@@ -1,10 +1,11 @@
-// One invocation per (state, robot instance): tests whether the shape reaches into one half-space of the world, and
-// reports the verdict. The corner with the least height above the plane decides. A traversal of the shape's tree finds
+// One invocation per candidate: if its other body is a half-space, tests whether the shape reaches into it, and reports
+// the verdict. The corner with the least height above the plane decides. A traversal of the shape's tree finds
 // it, with the test of a box against a plane (Ericson 2005, "Real-Time Collision Detection", 5.2.3). The triangles of a
 // curved shape lie inside its true surface, so the slack is added to the gap. Lengths are in metres.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
+#include "common/lists.glsl"
 #include "geometry/pose.glsl"
 #include "problem/nodes.glsl"
 #include "geometry/error_bounds.glsl"
@@ -12,14 +13,12 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "traversal/verdicts.glsl"
 #include "problem/triangles.glsl"
 #include "problem/margins.glsl"
-layout(location = LOCATION_HALF_SPACE_COUNT) uniform uint half_space_count;
 layout(location = LOCATION_WORLD_COUNT) uniform uint world_count;
-layout(location = LOCATION_HALF_SPACE) uniform uint half_space;
+layout(location = LOCATION_CANDIDATE_CAPACITY) uniform uint candidate_capacity;
+layout(binding = UNIT_CANDIDATES) uniform usamplerBuffer candidates;
 layout(binding = UNIT_ROBOT_POSES) uniform usamplerBuffer robot_poses;
 // First texel of a half-space: the normal and the offset of its plane. Second texel: its padding.
 layout(std430, binding = BINDING_C) readonly buffer HalfSpaces { vec4 half_spaces[]; };
-// One bit per pair: [robot][half-space].
-layout(std430, binding = BINDING_D) readonly buffer HalfSpacePairs { uint half_space_pairs[]; };
 
 // Returns STATE_* bits: STATE_HIT if a corner is proven to lie at most `distance` above the plane, STATE_UNDECIDED if a
 // corner may lie at most `gap` above it. The normal and the offset are in the frame of the tree.
@@ -63,13 +62,15 @@ uint reachesDown(uint root, vec3 normal, float offset, float error, float distan
 void main()
 {
   const uint i = invocationIndex();
-  if (i >= state_count * robot_count)
+  if (i >= lengthOf(LIST_CANDIDATES, candidate_capacity))
     return;
-  const uint state = stateOf(i);
-  const uint robot = rowOf(i);
-  const uint bit = robot * half_space_count + half_space;
-  if ((half_space_pairs[bit >> 5u] >> (bit & 31u) & 1u) == 0u)
+  const uvec4 two = texelFetch(candidates, int(i / 2u));
+  const uint state = i % 2u == 0u ? two.x : two.z;
+  const uint pair = i % 2u == 0u ? two.y : two.w;
+  if (pairOther(pair) < robot_count + world_count || isDecided(state))
     return;
+  const uint robot = pairRobot(pair);
+  const uint half_space = pairOther(pair) - robot_count - world_count;
   const Instance instance = fetchInstance(robot);
   const Pose pose = fetchPose(robot_poses, poseIndex(state, robot));
   const vec4 plane = half_spaces[HALF_SPACE_TEXELS * half_space];
@@ -81,5 +82,5 @@ void main()
   const uint found = reachesDown(instance.root, normal, offset, error, distance * (1.0 - 4.0 * u),
                                  requiredGap(distance, instance.slack));
   if (found != 0u)
-    report(state, packPair(robot, robot_count + world_count + half_space), found);
+    report(state, pair, found);
 }

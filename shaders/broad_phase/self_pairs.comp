@@ -1,6 +1,6 @@
 // Broad phase among links. One invocation per (state, query): compares the bounding sphere of a robot instance with the
-// spheres of six others. If the spheres overlap and no joint table proves a verdict, the pair becomes a candidate. All
-// pairs are compared: a robot has few links, and this needs no tree per state.
+// spheres of six others. If the spheres overlap, the pair becomes a candidate. All pairs are compared: a robot has few
+// links, and this needs no tree per state.
 #include "shader_constants.h"
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
@@ -9,9 +9,6 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "broad_phase/queries.glsl"
 #include "common/comparisons.glsl"
 #include "traversal/verdicts.glsl"
-#if JOINT_TABLES
-#include "broad_phase/joint_tables.glsl"
-#endif
 layout(binding = UNIT_SPHERES) uniform usamplerBuffer spheres;
 
 vec4 sphereOf(uint robot, uint state)
@@ -44,16 +41,5 @@ void main()
     near |= partner != NO_PARTNER && !provenGreater(dot(apart, apart), reach * reach) ? 1u << k : 0u;
   }
   for (; near != 0u; near &= near - 1u)
-  {
-    const uint partner = partnerOf(query, uint(findLSB(near)));
-#if JOINT_TABLES
-    const uint proof = proveByTable(state, query.x, partner);
-#else
-    const uint proof = STATE_UNDECIDED;
-#endif
-    if (proof == STATE_HIT)
-      report(state, packPair(query.x, partner), proof);
-    else if (proof == STATE_UNDECIDED)
-      addCandidate(state, packPair(query.x, partner));
-  }
+    addCandidate(state, packPair(query.x, partnerOf(query, uint(findLSB(near)))));
 }

@@ -5,6 +5,7 @@
 layout(local_size_x = GROUP_SIZE) in;
 #include "common/invocation.glsl"
 #include "problem/instance_lists.glsl"
+#include "common/comparisons.glsl"
 #include "broad_phase/candidates.glsl"
 #include "geometry/pose.glsl"
 #include "problem/nodes.glsl"
@@ -12,6 +13,11 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "broad_phase/queries.glsl"
 #include "traversal/verdicts.glsl"
 layout(location = LOCATION_WORLD_COUNT) uniform uint world_count;
+layout(location = LOCATION_HALF_SPACE_COUNT) uniform uint half_space_count;
+// See half_spaces.comp.
+layout(std430, binding = BINDING_C) readonly buffer HalfSpaces { vec4 half_spaces[]; };
+// One bit per pair: [robot][half-space].
+layout(std430, binding = BINDING_D) readonly buffer HalfSpacePairs { uint half_space_pairs[]; };
 // First texel of a node: the centre of its box, and the next node if the boxes are apart. Second texel: the half
 // extents, and the world instance or NO_OBJECT. If the boxes overlap, the traversal continues with the next node in the
 // list. So no stack is needed. The traversal ends behind the last node.
@@ -22,6 +28,23 @@ bool isChecked(uint robot, uint world)
 {
   const uint bit = robot * world_count + world;
   return (texelFetch(world_pairs, int(bit >> 7u))[bit >> 5u & 3u] >> (bit & 31u) & 1u) != 0u;
+}
+
+// Adds the half-spaces that the box around a robot instance may reach.
+void addHalfSpaces(uint state, uint robot, vec3 center, vec3 extent)
+{
+  for (uint h = 0u; h < half_space_count; ++h)
+  {
+    const uint bit = robot * half_space_count + h;
+    const vec4 plane = half_spaces[HALF_SPACE_TEXELS * h];
+    const float padding = half_spaces[HALF_SPACE_TEXELS * h + 1u].x;
+    const float reach = dot(abs(plane.xyz), extent) + padding;
+    const float error = 1e-5 * (dot(abs(plane.xyz), abs(center)) + abs(plane.w) + reach);
+    // With an infinite margin, a product with 0 is NaN, which proves nothing.
+    const bool apart = provenGreater(dot(plane.xyz, center) - plane.w, reach + error);
+    if (!apart && (half_space_pairs[bit >> 5u] >> (bit & 31u) & 1u) != 0u)
+      addCandidate(state, packPair(robot, robot_count + world_count + h));
+  }
 }
 
 void main()
@@ -38,6 +61,7 @@ void main()
   const vec3 extent = absolute(placed.pose.rotation) * placed.box.extent + placed.instance.padding +
                       placed.world_margin + placed.margin;
 
+  addHalfSpaces(state, robot, center, extent);
   const uint node_count = max(2u * world_count, 1u) - 1u;
   uint at = 0u;
   for (uint steps = 0u; at < node_count && steps < INVOCATION_ITERATIONS / 2u; ++steps)

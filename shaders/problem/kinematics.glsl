@@ -5,6 +5,9 @@
 #include "problem/instances.glsl"
 #include "problem/instance_lists.glsl"
 #include "problem/states.glsl"
+#include "common/lists.glsl"
+layout(location = LOCATION_LISTED) uniform uint listed;  // 1: only the states of a list are placed
+layout(std430, binding = BINDING_OPEN_STATES) readonly buffer OpenStates { uint open_states[]; };
 // Texels 0 and 1: the origin of the poses, in the planning frame. Then one texel per link: the first of its records,
 // the end of its records, and the texel at which the records begin. Then the records, one for each shape of a link: six
 // texels with the rows of its pose in the frame of its link (two texels a row), and one with its robot instance.

@@ -1,4 +1,4 @@
-// One invocation per entry of a traversal. It does nothing if the state of the entry has a hit already. If one shape is
+// One invocation per root pair. It does nothing if the state of the pair has a hit already. If one shape is
 // a mesh with a solid, the invocation tests whether a component of the other shape is inside this mesh
 // without crossing its surface. The winding number of one point per component decides (geometry/winding_number.glsl).
 // It reports the verdict.
@@ -9,14 +9,12 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "problem/nodes.glsl"
 #include "geometry/error_bounds.glsl"
 #include "problem/instances.glsl"
-#include "common/counters.glsl"
+#include "common/lists.glsl"
 #include "traversal/verdicts.glsl"
 #include "problem/components.glsl"
 #include "problem/triangles.glsl"
 #include "geometry/winding_number.glsl"
-layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;    // counter of the entries
-layout(location = LOCATION_IN_CAPACITY) uniform uint in_capacity;  // of the list of entries
-layout(binding = UNIT_ENTRIES) uniform usamplerBuffer entries;
+layout(location = LOCATION_ROOT_PAIR_CAPACITY) uniform uint root_pair_capacity;
 
 // Returns STATE_* bits for the components of `inner`. `pose` places them in the frame of the solid, where their points
 // are off by at most `error` (metres).
@@ -48,9 +46,9 @@ uint meshContainment(Instance inner, Instance solid, Pose pose, float error, ino
 void main()
 {
   const uint i = invocationIndex();
-  if (i >= min(counters[in_counter], in_capacity))
+  if (i >= lengthOf(LIST_ROOT_PAIRS, root_pair_capacity))
     return;
-  const RootPair root_pair = fetchRootPair(texelFetch(entries, int(i)).x);
+  const RootPair root_pair = fetchRootPair(i);
   if (isDecided(root_pair.state))
     return;
   const Instance a = fetchInstance(pairOther(root_pair.pair));

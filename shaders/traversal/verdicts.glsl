@@ -1,11 +1,25 @@
-// The verdict of each state (STATE_* bits), and a colliding pair of each state with a hit. The flags are coherent, so
-// that all work groups see a hit while they run.
-layout(std430, binding = BINDING_FLAGS) coherent buffer Flags { uint flags[]; };
-layout(std430, binding = BINDING_HITS) buffer Hits { uint hits[]; };
+// The verdict of each state: VERDICT_* or a pair that collides. The words are coherent, so that all work groups see a
+// hit while they run.
+layout(std430, binding = BINDING_VERDICTS) coherent buffer Verdicts { uint verdicts[]; };
 
 bool isDecided(uint state)
 {
-  return (flags[state] & STATE_HIT) != 0u;
+  const uint verdict = verdicts[state];
+  return verdict != VERDICT_FREE && verdict < VERDICT_OPEN;
+}
+
+// Whether the proofs have nothing left to do for a state.
+bool isSettled(uint state)
+{
+  const uint verdict = verdicts[state];
+  return verdict != VERDICT_FREE && verdict != VERDICT_OPEN;
+}
+
+// A later hit still counts.
+void reportUndecided(uint state)
+{
+  if (atomicCompSwap(verdicts[state], VERDICT_FREE, VERDICT_UNDECIDED) == VERDICT_OPEN)
+    atomicCompSwap(verdicts[state], VERDICT_OPEN, VERDICT_UNDECIDED);
 }
 
 // Adds `found` (STATE_* bits) to the verdict of a state. If several pairs collide, any one of them may be kept.
@@ -15,11 +29,7 @@ void report(uint state, uint pair, uint found)
   found = STATE_UNDECIDED;
 #endif
   if ((found & STATE_HIT) != 0u)
-    hits[state] = pair;
-  atomicOr(flags[state], found);
-}
-
-void reportUndecided(uint state)
-{
-  atomicOr(flags[state], STATE_UNDECIDED);
+    atomicExchange(verdicts[state], pair);
+  else
+    reportUndecided(state);
 }

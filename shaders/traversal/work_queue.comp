@@ -5,8 +5,8 @@
 //
 // Node pairs go to the entry list of the next pass if the stack is full, if the iterations run out, or
 // QUEUE_LAST_ROUNDS rounds after the first invocation of the work group found the entry list empty. So a long traversal
-// does not keep one invocation busy while all others have ended: the next pass distributes its node pairs. The last
-// pass hands nothing on before the iterations run out. The sources are in src/collision/gpu/traversal/work_queue.cpp.
+// does not keep one invocation busy while all others have ended: the next pass distributes its node pairs. What the
+// last pass would hand on is an overflow. The sources are in src/collision/gpu/traversal/work_queue.cpp.
 //
 // On llvmpipe a branch skips nothing, so every store and atomic costs time in each step of each invocation. A step
 // therefore has only one store: the memory of an invocation holds node pairs from below and leaf pairs from above. All
@@ -23,7 +23,7 @@ layout(local_size_x = QUEUE_INVOCATIONS) in;
 #if SOLIDS
 #include "traversal/solid_nodes.glsl"
 #endif
-#include "common/counters.glsl"
+#include "common/lists.glsl"
 #include "traversal/verdicts.glsl"
 // Room for all leaf pairs that the invocations can add before the work group tests triangles.
 #define LEAF_QUEUE (QUEUE_FLUSH + QUEUE_INVOCATIONS * QUEUE_STEPS)
@@ -31,8 +31,9 @@ layout(local_size_x = QUEUE_INVOCATIONS) in;
 #if TOLERANT || PADDED
 #include "traversal/tolerance.glsl"
 #endif
-layout(location = LOCATION_IN_COUNTER) uniform uint in_counter;    // counter of the list that is read
-layout(location = LOCATION_OUT_COUNTER) uniform uint out_counter;  // counter of the list that is written
+layout(location = LOCATION_IN_LIST) uniform uint in_list;
+layout(location = LOCATION_OUT_LIST) uniform uint out_list;
+layout(location = LOCATION_PASS) uniform uint pass;  // place of the counters of this pass
 layout(location = LOCATION_ENTRY_CAPACITY) uniform uint entry_capacity;
 layout(location = LOCATION_IN_CAPACITY) uniform uint in_capacity;  // of the list that is read
 layout(location = LOCATION_IS_LAST) uniform uint is_last;          // 1: no further pass follows
@@ -50,7 +51,9 @@ shared uint list_ended;  // 1: an invocation has found the entry list empty
 // missed.
 void spill(uint root_pair, uvec2 nodes, uint state)
 {
-  const uint at = atomicAdd(counters[out_counter], 1u);
+  if (is_last != 0u)
+    atomicOr(counters[COUNTER_OVERFLOW], 1u);
+  const uint at = newEntries(out_list, 1u, entry_capacity, QUEUE_INVOCATIONS);
   if (at < entry_capacity)
     spilled[at] = uvec4(root_pair, nodes, 0u);
   else
@@ -59,7 +62,7 @@ void spill(uint root_pair, uvec2 nodes, uint state)
 
 void main()
 {
-  const uint entry_count = min(counters[in_counter], in_capacity);
+  const uint entry_count = lengthOf(in_list, in_capacity);
   uvec2 memory[QUEUE_STACK];
   uint waiting = 0u;   // number of node pairs in `memory`, from below
   uint leaves = 0u;    // number of leaf pairs in `memory`, from above
@@ -93,7 +96,7 @@ void main()
     }
     if (!walking && !exhausted)
     {
-      const uint at = atomicAdd(counters[COUNTER_NEXT_ENTRY], 1u);
+      const uint at = atomicAdd(counters[pass + PASS_NEXT_ENTRY], 1u);
       exhausted = at >= entry_count;
       walking = !exhausted;
       const uvec4 entry = texelFetch(entries, int(min(at, entry_count - 1u)));
@@ -183,5 +186,5 @@ void main()
   for (; waiting > 0u; --waiting)
     spill(root_pair_index, memory[waiting - 1u], root_pair.state);
   // This count reveals a device that ends invocations early.
-  atomicAdd(counters[COUNTER_INVOCATIONS_ENDED], 1u);
+  atomicAdd(counters[pass + PASS_ENDED], 1u);
 }

@@ -98,12 +98,11 @@ void Buffer::clear()
   clear(0, size_);
 }
 
-void Buffer::clear(std::size_t offset, std::size_t size)
+void Buffer::clear(std::size_t offset, std::size_t size, std::uint32_t word)
 {
-  const std::uint32_t zero = 0;
   waitForShaders();
   glClearNamedBufferSubData(id_, GL_R32UI, static_cast<GLintptr>(offset),
-                            static_cast<GLsizeiptr>(size & ~std::size_t{3}), GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+                            static_cast<GLsizeiptr>(size & ~std::size_t{3}), GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
   checkGl("clearing a buffer");
 }
 

@@ -30,9 +30,9 @@ class Buffer
   void reserve(std::size_t size, std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
   void write(const void* data, std::size_t size, std::size_t offset = 0);
   void read(void* data, std::size_t size, std::size_t offset = 0) const;
-  void clear();  ///< fills the buffer with zeros
-  void clear(std::size_t offset, std::size_t size);
-  void copyFrom(const Buffer& other, std::size_t size);  ///< copies the first `size` bytes
+  void clear();                                                              ///< fills the buffer with zeros
+  void clear(std::size_t offset, std::size_t size, std::uint32_t word = 0);  ///< fills a part with copies of a word
+  void copyFrom(const Buffer& other, std::size_t size);                      ///< copies the first `size` bytes
 
   void bindStorage(std::uint32_t binding) const;
   /// Binds a part of the buffer. `offset` is a multiple of kStorageAlignment.

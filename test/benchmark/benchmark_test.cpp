@@ -164,7 +164,8 @@ TEST(Benchmark, FailsWhereATimedAnswerIsWrong)
 {
   const TemporaryFolder folder;
   const ShaderFolder shaders;
-  shaders.replace("traversal/verdicts.glsl", "atomicOr(flags[state], found);", "");
+  shaders.replace("traversal/verdicts.glsl",
+                  "atomicExchange(verdicts[state], pair);\n  else\n    reportUndecided(state);", "return;");
   setenv("GPU_PLANNING_SCENE_SHADERS", shaders.path().c_str(), 1);
   for (const std::string part : {"latency", "build", "updates", "growth"})
   {
@@ -206,7 +207,7 @@ TEST(Benchmark, WritesEveryTableAndTheChartsAreDrawn)
   std::map<std::string, double> calls;
   for (const Row& row : readTable(folder.path() + "/kernels.csv"))
     calls[row.at("command")] += std::stod(row.at("calls_a_batch"));
-  EXPECT_GE(calls["traversal/work_queue.comp"], 4.0) << "passes of a part";
+  EXPECT_GE(calls["traversal/work_queue.comp"], 2.0) << "passes of a part";
   for (const char* once_a_part : {"broad_phase/root_pairs.comp", "common/batch_done.comp", "upload", "readback"})
     EXPECT_GE(calls[once_a_part], 1.0) << once_a_part;
 

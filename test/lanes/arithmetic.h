@@ -345,6 +345,20 @@ inline Float clamp(const Float& x, const Float& low, const Float& high)
 {
   return min(max(x, low), high);
 }
+/// A device without such an operation rounds the product first, also in a `precise` expression.
+template <class T>
+Real<T> fma(const Real<T>& x, const Real<T>& y, const Real<T>& z)
+{
+  using Wide = typename Format<T>::Wide;
+  Run& run = *kernel().run;
+  if (!run.lane->precise)
+    return x * y + z;
+  countOperation(Format<T>::kOperations);
+  countOperation(Format<T>::kOperations);
+  const Wide exact = static_cast<Wide>(x.value) * y.value;
+  const Wide product = run.choose(run.arithmetic.contract) ? exact : static_cast<Wide>(rounded<T>(exact));
+  return Real<T>(rounded<T>(product + static_cast<Wide>(z.value)));
+}
 inline Double roundEven(const Double& x)
 {
   countOperation(&Work::doubles);

@@ -406,7 +406,11 @@ std::vector<std::string> checkKinematics(const std::string& shaders, std::uint64
   kinematics.setStates(states.data());
   TexelBuffer poses;
   poses.reserve(kCases * problem.robot.size() * POSE_FLOATS * sizeof(float));
-  kinematics.write(0, kCases, poses);
+  const Buffer no_list(COUNTER_WORDS * sizeof(std::uint32_t));
+  no_list.bindStorage(BINDING_COUNTERS);
+  no_list.bindStorage(BINDING_OPEN_STATES);
+  kinematics.begin(0, kCases);
+  kinematics.place(poses);
   std::vector<float> found(kCases * problem.robot.size() * POSE_FLOATS);
   poses.buffer().read(found.data(), found.size() * sizeof(float));
   std::vector<std::string> wrong;

@@ -6,6 +6,7 @@
 #include "collision/gpu/gpu_pair_checker.h"
 #include "gpu/float_arithmetic.h"
 #include "lanes/gl_device.h"
+#include "lanes/proof_shaders.h"
 
 namespace gpu_planning_scene::core
 {
@@ -17,13 +18,14 @@ const std::string kUntrusted = "#define FLOAT32_TRUSTED 0\n";
 std::shared_ptr<const RobotModel> robotWithAllJoints()
 {
   std::string xml = "<robot name='joints'><link name='l0'/>";
+  const std::string ball = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
   int link = 0;
   for (const char* type : {"planar", "floating", "revolute", "continuous", "prismatic", "fixed"})
   {
     const std::string parent = "l" + std::to_string(link);
     const std::string child = "l" + std::to_string(++link);
-    xml += "<link name='" + child + "'/><joint name='j" + child + "' type='" + type + "'><parent link='" + parent +
-           "'/><child link='" + child +
+    xml += "<link name='" + child + "'>" + ball + "</link><joint name='j" + child + "' type='" + type +
+           "'><parent link='" + parent + "'/><child link='" + child +
            "'/><axis xyz='0 0.6 0.8'/><limit lower='-1' upper='1' effort='1' velocity='1'/></joint>";
   }
   return RobotModel::fromXml(xml + "</robot>", "", {});
@@ -45,7 +47,8 @@ std::set<std::string> computeShaders(const std::string& folder)
         for (const float tolerance : {0.0F, 0.001F})
           programs->prepare({solids, padded, tolerance, 1});
   }
-  const Program with_tables(folder, "broad_phase/self_pairs.comp", "#define JOINT_TABLES 1\n");
+  for (const std::string& definitions : {std::string(), kUntrusted})
+    compileProofShaders(folder, robotWithAllJoints(), definitions);
   findDoubleFault(folder);
   findEmulatedDouble(folder);
   const GpuKinematics kinematics(folder, robotWithAllJoints());

@@ -39,7 +39,6 @@ FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic",
              "boxes", "far_links", "half_spaces", "balls"]
 # With --quick, and for two `precise`, only the function tasks of the file are tried.
 FUNCTION_OF = {
-    "shaders/broad_phase/covers.glsl": ["balls"],
     "shaders/broad_phase/half_spaces.comp": ["half_spaces"],
     "shaders/broad_phase/self_pairs.comp": ["far_links"],
     "shaders/geometry/pose.glsl": ["transforms", "solids"],

@@ -141,14 +141,14 @@ void getBufferSubData(GLuint buffer, GLintptr offset, GLsizeiptr size, void* dat
   commands().finish();
 }
 
-void clearBufferSubData(GLuint buffer, GLenum, GLintptr offset, GLsizeiptr size, GLenum, GLenum, const void*)
+void clearBufferSubData(GLuint buffer, GLenum, GLintptr offset, GLsizeiptr size, GLenum, GLenum, const void* word)
 {
   give(
       "clear",
-      [=, block = buffers.at(buffer).block]
+      [=, block = buffers.at(buffer).block, value = word ? *static_cast<const std::uint32_t*>(word) : 0U]
       {
-        const std::vector<char> zeros(static_cast<std::size_t>(size));
-        simulator().commandWrite(block, static_cast<std::size_t>(offset), zeros.size(), zeros.data());
+        const std::vector<std::uint32_t> words(static_cast<std::size_t>(size) / sizeof(value), value);
+        simulator().commandWrite(block, static_cast<std::size_t>(offset), words.size() * sizeof(value), words.data());
       });
 }
 

@@ -73,7 +73,9 @@ enum class AtomicOperation
 {
   Add,
   Or,
-  Max
+  Max,
+  Exchange,
+  CompareSwap
 };
 
 constexpr std::uint32_t kNoPlace = ~0U;
@@ -84,8 +86,9 @@ class Memory
  public:
   virtual void load(std::uint32_t binding, std::uint64_t word, std::uint32_t count, std::uint32_t* values) = 0;
   virtual void store(std::uint32_t binding, std::uint64_t word, std::uint32_t count, const std::uint32_t* values) = 0;
+  /// `compared`: CompareSwap writes only if the word has this value.
   virtual std::uint32_t atomic(std::uint32_t binding, std::uint64_t word, AtomicOperation operation,
-                               std::uint32_t value) = 0;
+                               std::uint32_t value, std::uint32_t compared = 0) = 0;
   virtual void fetch(std::uint32_t unit, std::int64_t texel, std::uint32_t* values) = 0;
   /// The address of an element of shared memory, `place` of its variable. kNoPlace: the access does not count.
   virtual void* shared(std::uint32_t offset, std::uint32_t place, SharedAccess access) = 0;

@@ -440,6 +440,17 @@ uint atomicMax(AtomicPlace<M> place, uint value)
   return place.memory.update(place.index, AtomicOperation::Max, value);
 }
 
+template <class M>
+uint atomicExchange(AtomicPlace<M> place, uint value)
+{
+  return place.memory.update(place.index, AtomicOperation::Exchange, value);
+}
+template <class M>
+uint atomicCompSwap(AtomicPlace<M> place, uint compared, uint value)
+{
+  return place.memory.update(place.index, AtomicOperation::CompareSwap, value, compared);
+}
+
 template <class T>
 struct Storage
 {
@@ -465,9 +476,9 @@ struct Storage
   }
   Place<Storage, T> store(uint i) const { return {*this, i}; }
   AtomicPlace<Storage> atomic(uint i) const { return {*this, i}; }
-  uint update(uint i, AtomicOperation operation, uint value) const
+  uint update(uint i, AtomicOperation operation, uint value, uint compared = 0) const
   {
-    return kernel().run->memory->atomic(binding, i, operation, value);
+    return kernel().run->memory->atomic(binding, i, operation, value, compared);
   }
   uint binding;
 };

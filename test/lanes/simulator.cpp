@@ -245,8 +245,7 @@ void Simulator::load(std::uint32_t binding, std::uint64_t first, std::uint32_t c
 void Simulator::noteWrite(Block::Word& word, std::uint32_t value, bool atomically, std::uint32_t binding)
 {
   const bool other_wrote = word.written_in == dispatch_ && word.written_by != running_->id;
-  // Any pair of a state may be kept as its hit (traversal/verdicts.glsl), so writes may race there.
-  if (other_wrote && !(atomically && word.written_atomically) && nameOf(binding) != "hits")
+  if (other_wrote && !(atomically && word.written_atomically))
     report("a race: two lanes write to the same word of " + nameOf(binding));
   if (word.read_in == dispatch_ && (word.read_by_several || word.read_by != running_->id))
     report("a race: a lane writes what another lane reads from " + nameOf(binding) + " in the same dispatch");
@@ -281,7 +280,7 @@ void Simulator::store(std::uint32_t binding, std::uint64_t first, std::uint32_t 
 }
 
 std::uint32_t Simulator::atomic(std::uint32_t binding, std::uint64_t first, AtomicOperation operation,
-                                std::uint32_t value)
+                                std::uint32_t value, std::uint32_t compared)
 {
   maybeSwitch();
   ++running_->lane.work.atomics;
@@ -294,9 +293,24 @@ std::uint32_t Simulator::atomic(std::uint32_t binding, std::uint64_t first, Atom
     report("an atomic operation on " + nameOf(binding) + " where nothing was written");
   const std::uint32_t before = block->values[at];
   noteWrite(block->history[at], before, true, binding);
-  block->values[at] = operation == AtomicOperation::Add  ? before + value
-                      : operation == AtomicOperation::Or ? before | value
-                                                         : std::max(before, value);
+  const auto result = [&]
+  {
+    switch (operation)
+    {
+      case AtomicOperation::Add:
+        return before + value;
+      case AtomicOperation::Or:
+        return before | value;
+      case AtomicOperation::Max:
+        return std::max(before, value);
+      case AtomicOperation::Exchange:
+        return value;
+      case AtomicOperation::CompareSwap:
+        break;
+    }
+    return before == compared ? value : before;
+  };
+  block->values[at] = result();
   return before;
 }
 

@@ -126,8 +126,8 @@ class Simulator : private Memory
 
   void load(std::uint32_t binding, std::uint64_t word, std::uint32_t count, std::uint32_t* values) override;
   void store(std::uint32_t binding, std::uint64_t word, std::uint32_t count, const std::uint32_t* values) override;
-  std::uint32_t atomic(std::uint32_t binding, std::uint64_t word, AtomicOperation operation,
-                       std::uint32_t value) override;
+  std::uint32_t atomic(std::uint32_t binding, std::uint64_t word, AtomicOperation operation, std::uint32_t value,
+                       std::uint32_t compared) override;
   void fetch(std::uint32_t unit, std::int64_t texel, std::uint32_t* values) override;
   void* shared(std::uint32_t offset, std::uint32_t place, SharedAccess access) override;
   void barrier(int site) override;

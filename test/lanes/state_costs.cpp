@@ -12,6 +12,7 @@
 
 #include "collision/bounds/problem_maker.h"
 #include "collision/exact/forest_cache.h"
+#include "collision/filter/lanes/lane_scene.h"
 #include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/gpu_pair_checker.h"
 #include "gpu_planning_scene/error.h"
@@ -26,10 +27,9 @@ namespace
 const std::string kShaders = GPS_SOURCE_DIR "/shaders";
 constexpr int kBatches = 3;
 
-RobotProofs proofsOf(const RobotModel& robot, const std::shared_ptr<const CollisionProblem>& problem)
+RobotProofs proofsOf(const RobotModel& robot, const std::shared_ptr<const CollisionProblem>& problem,
+                     const ForestCache& forest)
 {
-  ForestCache forest;
-  forest.traversalOf(problem);
   RobotProver prover;
   RobotProofs proofs;
   prover.prove(
@@ -45,22 +45,26 @@ void measure(const TestScene& scene, std::size_t states, Traversal traversal)
   GpuPairChecker checker(kShaders, traversal, std::max<std::size_t>(states, 16384), {},
                          std::numeric_limits<double>::infinity());
   checker.setProblem(*problem);
-  checker.useProofs(proofsOf(*scene.scene->robot, problem), *problem, true);
+  ForestCache forest;
+  forest.traversalOf(problem);
+  const auto proofs = std::make_shared<const RobotProofs>(proofsOf(*scene.scene->robot, problem, forest));
+  checker.useProofs(LaneScene(*scene.scene->robot, *problem, *forest.forest(), proofs,
+                              gpu_planning_scene::core::lanes::kDeviceRounding));
   GpuKinematics kinematics(kShaders, scene.scene->robot);
   kinematics.setInstances(*problem);
-  lanes::WorkCounts counts;
+  ::lanes::WorkCounts counts;
   Verdicts verdicts;
   for (int batch = 1; batch <= kBatches; ++batch)
   {
     const std::vector<double> values = scene.randomStates(states, static_cast<std::uint64_t>(batch));
     kinematics.setStates(values.data());
     if (batch == kBatches)
-      lanes::device().countWork(&counts);
+      ::lanes::device().countWork(&counts);
     checker.check(kinematics, states, verdicts, nullptr, [](std::size_t /*begin*/, std::size_t /*count*/) {});
   }
-  lanes::device().countWork(nullptr);
+  ::lanes::device().countWork(nullptr);
   counts.print(std::cout);
-  const auto undecided = std::count(verdicts.flags.begin(), verdicts.flags.end(), STATE_UNDECIDED);
+  const auto undecided = std::count(verdicts.begin(), verdicts.end(), VERDICT_UNDECIDED);
   const GpuWork& work = checker.lastWork();
   std::cout << "\nstates\tundecided\tcandidates\troot pairs\ttraversed pairs\n"
             << work.states << '\t' << undecided << '\t' << work.candidates << '\t' << work.root_pairs << '\t'
@@ -75,13 +79,13 @@ int main(int argc, char** argv)
     if (argc < 4)
       throw Error("usage: state_costs SCENE STATES TRAVERSAL [GROUPS]");
     setenv("GPU_PLANNING_SCENE_PROGRAM_CACHE", "off", 1);
-    lanes::device().useExactArithmetic();
-    lanes::device().setResidentGroups(argc > 4 ? std::stoul(argv[4]) : 1024);
-    lanes::replaceOpenGl();
+    ::lanes::device().useExactArithmetic();
+    ::lanes::device().setResidentGroups(argc > 4 ? std::stoul(argv[4]) : 1024);
+    ::lanes::replaceOpenGl();
     measure(testScene(argv[1]), std::stoul(argv[2]), traversalFromName(argv[3]));
-    for (const std::string& fault : lanes::device().faults())
+    for (const std::string& fault : ::lanes::device().faults())
       std::cerr << fault << std::endl;
-    return lanes::device().faults().empty() ? EXIT_SUCCESS : EXIT_FAILURE;
+    return ::lanes::device().faults().empty() ? EXIT_SUCCESS : EXIT_FAILURE;
   }
   catch (const std::exception& error)
   {

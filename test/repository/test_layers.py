@@ -21,7 +21,7 @@ LAYERS = {
     "collision/bounds": ["collision/exact"],
     "collision/filter/proofs": ["collision/exact", "model/files"],
     "collision/filter/lanes": ["collision/filter/proofs"],
-    "collision/gpu": ["collision/bounds", "collision/filter/proofs", "gpu"],
+    "collision/gpu": ["collision/bounds", "collision/filter/lanes", "gpu"],
     "collision/contacts": ["collision/bounds"],
     "collision/motion": ["collision/bounds"],
     "collision/checkers": ["collision/filter/lanes", "collision/gpu", "collision/contacts", "collision/motion"],

@@ -48,7 +48,10 @@ void BroadPhaseOrder::setPairs(const CollisionProblem& problem)
   for (std::size_t i = 0; i < problem.robot.size(); ++i)
   {
     const auto row = problem.world_pairs.begin() + static_cast<std::ptrdiff_t>(i) * width;
-    meets_world_[i] = std::find(row, row + width, std::uint8_t{1}) != row + width;
+    const auto planes = problem.half_space_pairs.begin() + static_cast<std::ptrdiff_t>(i * problem.half_spaces.size());
+    const auto planes_end = planes + static_cast<std::ptrdiff_t>(problem.half_spaces.size());
+    meets_world_[i] = std::find(row, row + width, std::uint8_t{1}) != row + width ||
+                      std::find(planes, planes_end, std::uint8_t{1}) != planes_end;
   }
   if (problem.robot.size() == world_hits_.size() && hasPairs(problem.self_pairs))
     return;

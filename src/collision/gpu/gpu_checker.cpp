@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "collision/filter/lanes/lane_checker.h"
+#include "collision/filter/lanes/lane_scene.h"
 #include "collision/parallel_for.h"
 #include "collision/rows_without.h"
 #include "gpu/float_arithmetic.h"
@@ -22,6 +24,18 @@
 // computational geometry. SoCG 1993.
 namespace gpu_planning_scene::core
 {
+namespace
+{
+/// Whether the shader of the proofs can test all pairs: the loops of an invocation have at most four iterations a pair,
+/// and the time to compile it grows with the number of pairs of links.
+bool suitsShader(const CollisionProblem& problem)
+{
+  constexpr std::size_t kIterations = 4;
+  constexpr std::size_t kMostSelfPairs = 4000;
+  return instancePairs(problem) * kIterations <= INVOCATION_ITERATIONS && problem.self_pairs.size() <= kMostSelfPairs;
+}
+}  // namespace
+
 GpuChecker::GpuChecker(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees)
   : shader_folder_(options.shader_folder.empty() ? shaderFolder() : options.shader_folder),
     gl_(options.device),
@@ -136,6 +150,7 @@ void GpuChecker::selectPairs(std::shared_ptr<const CollisionProblem> problem)
 {
   requireUsableScene();
   startOnDevice([&] { pairs_->selectPairs(*problem); }).get();
+  proofs_.reset();
   problem_ = std::move(problem);
   on_cpu_.reset();
 }
@@ -145,10 +160,16 @@ void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
   if (!proofs || proofs == proofs_)
     return;
   requireUsableScene();
-  const bool tables = kinematics_ && kinematics_fault_.empty();
+  proofs_ = proofs;
+  // The device proves verdicts of states that it has.
+  if (!kinematics_ || !kinematics_fault_.empty() || !LaneChecker::suits(*problem_) || !suitsShader(*problem_))
+    return;
+  if (!on_cpu_)
+    on_cpu_ = trees_->traversalOf(problem_);
+  const LaneScene scene(*robot_, *problem_, *trees_->forest(), proofs, lanes::kDeviceRounding);
   try
   {
-    startOnDevice([&] { pairs_->useProofs(*proofs, *problem_, tables); }).get();
+    startOnDevice([&] { pairs_->useProofs(scene); }).get();
   }
   catch (const DeviceLost&)
   {
@@ -158,7 +179,6 @@ void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
   {
     proofs_fault_ = std::string("proofs on the device: ") + error.what() + "; trees decide all pairs";
   }
-  proofs_ = proofs;
 }
 
 void GpuChecker::prepareMargins()
@@ -261,16 +281,16 @@ void GpuChecker::settle(const StateRange& part, std::size_t link_count, const Li
   const std::vector<ShapeInstance>& robot = problem_->robot;
   std::vector<std::size_t> undecided;
   for (std::size_t i = part.begin; i < part.begin + part.count; ++i)
-    if (verdicts_.flags[i] & STATE_HIT)
+    if (isHit(verdicts_[i]))
     {
-      const auto [a, b] = GpuPairChecker::pairOf(verdicts_.hits[i]);
+      const auto [a, b] = GpuPairChecker::pairOf(verdicts_[i]);
       result.valid[i] = 0;
       // Ascending order: the body index of an attached object is larger than the index of an object that it hits.
       const std::int32_t first = robot[a].body;
       const std::int32_t second = bodyOf(*problem_, b);
       result.colliding[i] = {std::min(first, second), std::max(first, second)};
     }
-    else if (verdicts_.flags[i] & STATE_UNDECIDED)
+    else if (verdicts_[i] == VERDICT_UNDECIDED)
       undecided.push_back(i);
   result.undecided_states += undecided.size();
   const auto start = std::chrono::steady_clock::now();

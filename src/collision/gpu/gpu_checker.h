@@ -12,6 +12,7 @@
 #include "collision/bounds/displacement_bounds.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/exact/forest_cache.h"
+#include "collision/filter/proofs/robot_proofs.h"
 #include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/gpu_pair_checker.h"
 #include "collision/gpu/part_queue.h"

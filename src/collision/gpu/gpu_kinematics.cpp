@@ -94,7 +94,11 @@ std::string GpuKinematics::findFault()
   setStates(states.data());
   TexelBuffer poses;
   poses.reserve(kTestedStates * links * POSE_FLOATS * sizeof(float));
-  write(0, kTestedStates, poses);
+  const Buffer no_list(COUNTER_WORDS * sizeof(std::uint32_t));
+  no_list.bindStorage(BINDING_COUNTERS);
+  no_list.bindStorage(BINDING_OPEN_STATES);
+  begin(0, kTestedStates);
+  place(poses);
   std::vector<float> found(kTestedStates * links * POSE_FLOATS);
   poses.buffer().read(found.data(), found.size() * sizeof(float));
   std::vector<Eigen::Isometry3d> expected(links);
@@ -155,11 +159,11 @@ bool GpuKinematics::canPlace(const double* state) const
 
 std::size_t GpuKinematics::maxStates() const
 {
-  const std::size_t numbers = TexelBuffer::maxBytes() / sizeof(double) - 1;  // see write()
+  const std::size_t numbers = TexelBuffer::maxBytes() / sizeof(double) - 1;  // see begin()
   return std::max<std::size_t>(1, numbers / std::max<std::size_t>(1, largest_.size()));
 }
 
-void GpuKinematics::write(std::size_t begin, std::size_t count, TexelBuffer& poses)
+void GpuKinematics::begin(std::size_t begin, std::size_t count)
 {
   const std::size_t width = largest_.size();
   TexelBuffer& upload = uploads_[next_upload_];
@@ -167,9 +171,27 @@ void GpuKinematics::write(std::size_t begin, std::size_t count, TexelBuffer& pos
   upload.reserve((count * width + 1) * sizeof(double));
   upload.buffer().write(states_ + begin * width, count * width * sizeof(double));
   upload.bindTexture(UNIT_STATES);
+  count_ = count;
+}
+
+void GpuKinematics::bind(TexelBuffer& poses, bool listed)
+{
   link_shapes_.bindTexture(UNIT_LINK_SHAPES);
   poses.buffer().bindStorage(BINDING_A);
-  program_.set(LOCATION_STATE_COUNT, static_cast<std::uint32_t>(count));
-  program_.dispatch(groupsFor(count));
+  program_.set(LOCATION_STATE_COUNT, static_cast<std::uint32_t>(count_));
+  program_.set(LOCATION_LISTED, listed ? 1U : 0U);
+}
+
+void GpuKinematics::place(TexelBuffer& poses)
+{
+  bind(poses, false);
+  program_.dispatch(groupsFor(count_));
+}
+
+void GpuKinematics::placeOpenStates(TexelBuffer& poses, const BatchLists& lists)
+{
+  bind(poses, true);
+  lists.open_states.bindStorage(BINDING_OPEN_STATES);
+  program_.dispatchIndirect(lists.counters, LIST_OPEN_STATES * sizeof(std::uint32_t));
 }
 }  // namespace gpu_planning_scene::core

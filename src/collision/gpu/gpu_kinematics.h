@@ -36,18 +36,23 @@ class GpuKinematics : public PoseSource
   /// Whether all angles of a state are within the range of the shader's sine and cosine.
   bool canPlace(const double* state) const;
 
-  /// Sets the batch for `write`: row-major rows of the robot's variables. canPlace must be true for each row.
+  /// Sets the batch: row-major rows of the robot's variables. canPlace must be true for each row.
   void setStates(const double* states) { states_ = states; }
-  void write(std::size_t begin, std::size_t count, TexelBuffer& poses) override;
+  void begin(std::size_t begin, std::size_t count) override;
+  void place(TexelBuffer& poses) override;
+  void placeOpenStates(TexelBuffer& poses, const BatchLists& lists) override;
   std::size_t maxStates() const override;
   std::size_t boundVariables() const override { return largest_.size(); }
 
  private:
+  void bind(TexelBuffer& poses, bool listed);
+
   std::shared_ptr<const RobotModel> robot_;
   Program program_;
   std::vector<double> largest_;           // largest magnitude of each variable for canPlace
   std::vector<std::size_t> quaternions_;  // the first variables of the quaternions of floating joints
   const double* states_ = nullptr;
+  std::size_t count_ = 0;  // states of the part
   // Two buffers, so that states are uploaded while the GPU works on the previous part.
   std::array<TexelBuffer, 2> uploads_;
   std::size_t next_upload_ = 0;

@@ -6,11 +6,13 @@
 #include "collision/gpu/part_limits.h"
 #include "gpu/float_arithmetic.h"
 #include "gpu/gl_check.h"
+#include "gpu_planning_scene/error.h"
 #include "shader_constants.h"
 
-// Queues all dispatches of a part without waiting: kinematics, half-spaces, broad phase, root boxes, proofs, traversal
-// and containment. If a list overflows, the device sets a counter, and the part is split and repeated. The traversal on
-// the device follows Gress and Zachmann (2003); the queue of dispatches and the split are our own method.
+// Queues all dispatches of a part without waiting: proofs and the kinematics of the states that they leave open, or
+// else kinematics and broad phase; then root boxes, half-spaces, traversal and containment. If a list overflows, the
+// device sets a counter, and the part is split and repeated. The traversal on the device follows Gress and Zachmann
+// (2003); the queue of dispatches and the split are our own method.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -20,23 +22,20 @@ constexpr std::size_t kMaxCounted = 16384;
 
 constexpr std::size_t kFirstPart = 2048;
 
-/// Byte offsets in the results of a part: counters, then flags, then hits. `list_bytes` is the size of the flags and of
-/// the hits.
+/// Byte offsets in the results of a part: counters, then verdicts.
 struct AnswerOffsets
 {
   explicit AnswerOffsets(std::size_t count)
-    : list_bytes((count * sizeof(std::uint32_t) + Buffer::kStorageAlignment - 1) / Buffer::kStorageAlignment *
-                 Buffer::kStorageAlignment),
-      hits(flags + list_bytes),
-      end(hits + list_bytes)
+    : verdict_bytes((count * sizeof(std::uint32_t) + Buffer::kStorageAlignment - 1) / Buffer::kStorageAlignment *
+                    Buffer::kStorageAlignment),
+      end(verdicts + verdict_bytes)
   {
   }
-  std::size_t list_bytes;
-  std::size_t flags = Buffer::kStorageAlignment;
-  std::size_t hits;
+  std::size_t verdict_bytes;
+  std::size_t verdicts = Buffer::kStorageAlignment;
   std::size_t end;
 };
-static_assert(COUNTER_WORDS * sizeof(std::uint32_t) <= Buffer::kStorageAlignment, "they lie before the flags");
+static_assert(COUNTER_WORDS * sizeof(std::uint32_t) <= Buffer::kStorageAlignment, "they lie before the verdicts");
 }  // namespace
 
 GpuPairChecker::Programs::Programs(const std::string& folder, const std::string& definitions)
@@ -58,12 +57,11 @@ GpuPairChecker::GpuPairChecker(const std::string& folder, Traversal traversal, s
     parts_with_margins_({part_seconds, kFirstPart, 1, max_states_}),
     lists_(capacities),
     traversal_(makeTraversal(traversal, folder, definitions_)),
-    arguments_(folder),
     folder_(folder),
     plain_(folder, definitions_),
-    proofs_program_(folder, "broad_phase/prove_pairs.comp", definitions_),
     inside_program_(folder, "traversal/containment.comp", definitions_),
-    done_program_(folder, "common/batch_done.comp")
+    done_program_(folder, "common/batch_done.comp"),
+    proofs_(folder, definitions_)
 {
 }
 
@@ -83,20 +81,18 @@ void GpuPairChecker::setProblem(const CollisionProblem& problem)
 
 void GpuPairChecker::selectPairs(const CollisionProblem& problem)
 {
+  proofs_.clear();
   scene_.selectPairs(problem);
   order_.setPairs(problem);
   margins_.setPairs(problem);
   prepare();
 }
 
-void GpuPairChecker::useProofs(const RobotProofs& proofs, const CollisionProblem& problem, bool tables)
+void GpuPairChecker::useProofs(const LaneScene& scene)
 {
   if (!float_fault_.empty())
     return;  // they would prove nothing
-  proofs_.clear();
-  if (tables && !self_with_tables_)
-    self_with_tables_.emplace(folder_, "broad_phase/self_pairs.comp", definitions_ + "#define JOINT_TABLES 1\n");
-  proofs_.set(proofs, problem);
+  proofs_.set(scene);
 }
 
 /// Compiles programs, sizes the parts and allocates the lists, so that the first batch does not have to. The next
@@ -111,25 +107,42 @@ void GpuPairChecker::prepare()
   for (BatchSize* parts : {&plain_parts_, &parts_with_margins_})
     parts->restart();
   lists_.reserve(plain_parts_.size(), TexelBuffer::maxBytes());
-  traversal_->prepare(task(false, scene_.isPadded()));
-  if (scene_.solidNodes() != 0)
-    traversal_->prepare(task(true, scene_.isPadded()));
+  prepareTraversal(scene_.isPadded());
 }
 
 void GpuPairChecker::prepareMargins()
 {
   if (!with_margins_)
     with_margins_.emplace(folder_, definitions_ + "#define MARGINS 1\n");
+  if (!proofs_.exist())
+    return prepareTraversal(true);
+  try
+  {
+    proofs_.prepareMargins();
+  }
+  catch (const DeviceLost&)
+  {
+    throw;
+  }
+  catch (const Error&)  // the device does not compile them; trees decide all pairs
+  {
+    proofs_.clear();
+  }
+  prepareTraversal(true);
+}
+
+/// Compiles the programs of the traversals.
+void GpuPairChecker::prepareTraversal(bool padded)
+{
   for (const bool solids : {false, true})
     if (!solids || scene_.solidNodes() != 0)
-      traversal_->prepare(task(solids, true));
+      traversal_->prepare(task(solids, padded));
 }
 
 void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins,
                            const Done& done)
 {
-  verdicts.flags.assign(count, 0);
-  verdicts.hits.assign(count, 0);
+  verdicts.assign(count, VERDICT_FREE);
   work_ = {};
   if (scene_.robotCount() == 0)
     return done(0, count);
@@ -149,6 +162,8 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
       next = &parts_[i % 2];
       next->begin = begin;
       next->count = std::min({batch.parts.size(), source.maxStates(), count - begin});
+      if (provesFirst(batch))
+        next->count = std::min(next->count, proofs_.maxStates());
       begin += next->count;
       start(batch, *next);
     }
@@ -167,14 +182,14 @@ void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verd
 
 void GpuPairChecker::learnOrder(const Verdicts& verdicts)
 {
-  const std::size_t stride = 1 + verdicts.flags.size() / kMaxCounted;
-  for (std::size_t i = 0; i < verdicts.flags.size(); i += stride)
-    if (verdicts.flags[i] & STATE_HIT)
+  const std::size_t stride = 1 + verdicts.size() / kMaxCounted;
+  for (std::size_t i = 0; i < verdicts.size(); i += stride)
+    if (isHit(verdicts[i]))
     {
-      const auto [robot, other] = pairOf(verdicts.hits[i]);
+      const auto [robot, other] = pairOf(verdicts[i]);
       order_.count(robot, other);
     }
-  if (order_.endBatch(verdicts.flags.size()))
+  if (order_.endBatch(verdicts.size()))
     writeQueries();
 }
 
@@ -197,7 +212,7 @@ void GpuPairChecker::finish(const Batch& batch, Part& part)
   const std::size_t count = part.count;
   if (count == 1)
   {
-    batch.verdicts.flags[begin] = STATE_UNDECIDED;
+    batch.verdicts[begin] = VERDICT_UNDECIDED;
     return batch.done(begin, count);
   }
   batch.parts.tooLarge(count);
@@ -217,13 +232,11 @@ bool GpuPairChecker::fetch(Part& part, Verdicts& verdicts)
   if (words[COUNTER_OVERFLOW] != 0 || words[COUNTER_DONE] != part.serial)
     return false;
   work_.states += part.count;
-  work_.candidates += words[COUNTER_CANDIDATES];
-  work_.root_pairs += words[COUNTER_ROOT_PAIRS];
-  work_.traversed += words[COUNTER_MESH_ENTRIES] + words[COUNTER_SOLID_ENTRIES];
-  std::copy_n(words + offsets.flags / sizeof(std::uint32_t), part.count,
-              verdicts.flags.begin() + static_cast<std::ptrdiff_t>(part.begin));
-  std::copy_n(words + offsets.hits / sizeof(std::uint32_t), part.count,
-              verdicts.hits.begin() + static_cast<std::ptrdiff_t>(part.begin));
+  work_.candidates += words[LIST_CANDIDATES + LIST_LENGTH];
+  work_.root_pairs += words[LIST_ROOT_PAIRS + LIST_LENGTH];
+  work_.traversed += words[LIST_MESH_ENTRIES + LIST_LENGTH] + words[LIST_SOLID_ENTRIES + LIST_LENGTH];
+  std::copy_n(words + offsets.verdicts / sizeof(std::uint32_t), part.count,
+              verdicts.begin() + static_cast<std::ptrdiff_t>(part.begin));
   return true;
 }
 
@@ -232,81 +245,65 @@ void GpuPairChecker::start(const Batch& batch, Part& part)
 {
   const AnswerOffsets offsets(part.count);
   part.answers.reserve(offsets.end);
-  part.answers.clear(offsets.flags, offsets.list_bytes);
+  // The proofs write each verdict, so none is left if their dispatch is lost.
+  part.answers.clear(offsets.verdicts, offsets.verdict_bytes, provesFirst(batch) ? VERDICT_UNDECIDED : VERDICT_FREE);
   lists_.reserve(part.count, TexelBuffer::maxBytes());
-  lists_.counters.clear();
+  lists_.clearCounters();
   poses_.reserve(part.count * scene_.robotCount() * POSE_TEXELS * TexelBuffer::kTexelBytes);
-  batch.poses.write(part.begin, part.count, poses_);
+  batch.poses.begin(part.begin, part.count);
   if (batch.margins)
-  {
     margins_.write(*batch.margins, part.begin, part.count);
-    for (const Program* program : {&programs_->spheres, &programs_->world, &programs_->roots, &programs_->half_spaces})
-      program->set(LOCATION_MARGIN_COUNT, static_cast<std::uint32_t>(batch.margins->width));
-  }
-
   scene_.bind();
-  poses_.bindTexture(UNIT_ROBOT_POSES);
-  lists_.root_pairs.bindTexture(UNIT_ROOT_PAIRS);
-  lists_.candidates.bindTexture(UNIT_CANDIDATES);
   lists_.counters.bindStorage(BINDING_COUNTERS);
-  part.answers.bindStorage(BINDING_FLAGS, offsets.flags, offsets.list_bytes);
-  part.answers.bindStorage(BINDING_HITS, offsets.hits, offsets.list_bytes);
+  part.answers.bindStorage(BINDING_VERDICTS, offsets.verdicts, offsets.verdict_bytes);
 
   const auto states = static_cast<std::uint32_t>(part.count);
-  testHalfSpaces(states);
-  findCandidates(batch, states);
+  if (provesFirst(batch))
+  {
+    proofs_.start({states, scene_.robotCount(), static_cast<std::uint32_t>(batch.margins ? batch.margins->width : 0)},
+                  lists_);
+    batch.poses.placeOpenStates(poses_, lists_);
+  }
+  else
+  {
+    lists_.open_states.bindStorage(BINDING_OPEN_STATES);
+    batch.poses.place(poses_);
+  }
+  poses_.bindTexture(UNIT_ROBOT_POSES);
+  for (const Program* program :
+       {&programs_->spheres, &programs_->world, &programs_->self, &programs_->roots, &programs_->half_spaces})
+  {
+    program->set(LOCATION_STATE_COUNT, states);
+    program->set(LOCATION_ROBOT_COUNT, scene_.robotCount());
+    if (batch.margins && program != &programs_->self)
+      program->set(LOCATION_MARGIN_COUNT, static_cast<std::uint32_t>(batch.margins->width));
+  }
+  if (!provesFirst(batch))
+    findCandidates(states);
   testRoots();
-  proveRootPairs();
+  testHalfSpaces();
   traverse(scene_.isPadded() || batch.margins);
-  for (const bool solids : {true, false})
-    testContainment(solids);
+  testContainment();
   part.serial = serial_ = std::max(1U, serial_ + 1U);  // 0 is the value of a cleared counter
   done_program_.set(LOCATION_SERIAL, part.serial);
+  done_program_.set(LOCATION_HAS_QUEUES, traversal_->hasQueues() ? 1U : 0U);
+  done_program_.set(LOCATION_ROOT_PAIR_CAPACITY, lists_.capacity.root_pairs);
+  done_program_.set(LOCATION_ENTRY_CAPACITY, lists_.capacity.node_pairs);
   done_program_.dispatch(1);
   part.answers.copyFrom(lists_.counters, COUNTER_WORDS * sizeof(std::uint32_t));
   part.fetched.begin(part.answers, offsets.end);
   checkGl("a batch");
 }
 
-void GpuPairChecker::testHalfSpaces(std::uint32_t states)
+/// Proofs need the states on the device.
+bool GpuPairChecker::provesFirst(const Batch& batch) const
 {
-  if (scene_.halfSpaceCount() == 0)
-    return;
-  programs_->half_spaces.set(LOCATION_STATE_COUNT, states);
-  programs_->half_spaces.set(LOCATION_ROBOT_COUNT, scene_.robotCount());
-  programs_->half_spaces.set(LOCATION_HALF_SPACE_COUNT, scene_.halfSpaceCount());
-  programs_->half_spaces.set(LOCATION_WORLD_COUNT, scene_.worldCount());
-  scene_.halfSpaces().bindStorage(BINDING_C);
-  scene_.halfSpacePairs().bindStorage(BINDING_D);
-  // One dispatch per half-space, because the work of one invocation is limited.
-  for (std::uint32_t half_space = 0; half_space < scene_.halfSpaceCount(); ++half_space)
-  {
-    programs_->half_spaces.set(LOCATION_HALF_SPACE, half_space);
-    programs_->half_spaces.dispatch(groupsFor(std::size_t{states} * scene_.robotCount()));
-  }
-}
-
-/// The program of the broad phase among links. Tables know no margins, and they need the states on the device.
-const Program& GpuPairChecker::selfProgram(const Batch& batch)
-{
-  const std::size_t variables = batch.poses.boundVariables();
-  if (!self_with_tables_ || !proofs_.haveTables() || batch.margins || variables == 0)
-    return programs_->self;
-  self_with_tables_->set(LOCATION_VARIABLE_COUNT, static_cast<std::uint32_t>(variables));
-  return *self_with_tables_;
+  return proofs_.exist() && batch.poses.boundVariables() != 0;
 }
 
 /// The queries with the most hits run first, whether they are about the world or about other links.
-void GpuPairChecker::findCandidates(const Batch& batch, std::uint32_t states)
+void GpuPairChecker::findCandidates(std::uint32_t states)
 {
-  if (proofs_.exist())
-    proofs_.bind();
-  const Program& self = selfProgram(batch);
-  for (const Program* program : {&programs_->spheres, &programs_->world, &self, &programs_->roots})
-  {
-    program->set(LOCATION_STATE_COUNT, states);
-    program->set(LOCATION_ROBOT_COUNT, scene_.robotCount());
-  }
   spheres_.reserve(std::size_t{states} * scene_.robotCount() * TexelBuffer::kTexelBytes);
   if (!queries_.self.empty())
   {
@@ -316,6 +313,9 @@ void GpuPairChecker::findCandidates(const Batch& batch, std::uint32_t states)
   spheres_.bindTexture(UNIT_SPHERES);
   lists_.candidates.buffer().bindStorage(BINDING_B);
   programs_->world.set(LOCATION_WORLD_COUNT, scene_.worldCount());
+  programs_->world.set(LOCATION_HALF_SPACE_COUNT, scene_.halfSpaceCount());
+  scene_.halfSpaces().bindStorage(BINDING_C);
+  scene_.halfSpacePairs().bindStorage(BINDING_D);
   const auto query = [&](const Program& program, const TexelBuffer& list, std::size_t begin, std::size_t end)
   {
     if (begin == end)
@@ -326,34 +326,37 @@ void GpuPairChecker::findCandidates(const Batch& batch, std::uint32_t states)
     program.set(LOCATION_QUERY_COUNT, static_cast<std::uint32_t>(end - begin));
     program.dispatch(groupsFor(states * (end - begin)));
   };
-  query(self, self_queries_, 0, queries_.hot_self);
+  query(programs_->self, self_queries_, 0, queries_.hot_self);
   query(programs_->world, world_queries_, 0, queries_.hot_world);
-  query(self, self_queries_, queries_.hot_self, queries_.self.size());
+  query(programs_->self, self_queries_, queries_.hot_self, queries_.self.size());
   query(programs_->world, world_queries_, queries_.hot_world, queries_.world.size());
 }
 
 void GpuPairChecker::testRoots()
 {
-  arguments_.prepare(COUNTER_CANDIDATES, lists_.capacity.candidates, GROUP_SIZE, COUNTER_SCRATCH);
-  programs_->roots.set(LOCATION_CANDIDATE_CAPACITY, lists_.capacity.candidates);
-  programs_->roots.set(LOCATION_ROOT_PAIR_CAPACITY, lists_.capacity.root_pairs);
-  programs_->roots.set(LOCATION_SOLID_NODES, scene_.solidNodes());
+  const Program& program = programs_->roots;
+  program.set(LOCATION_WORLD_COUNT, scene_.worldCount());
+  program.set(LOCATION_CANDIDATE_CAPACITY, lists_.capacity.candidates);
+  program.set(LOCATION_ROOT_PAIR_CAPACITY, lists_.capacity.root_pairs);
+  program.set(LOCATION_SOLID_NODES, scene_.solidNodes());
+  lists_.candidates.bindTexture(UNIT_CANDIDATES);
   scene_.components().bindStorage(BINDING_C);
   lists_.root_pairs.buffer().bindStorage(BINDING_A);
-  programs_->roots.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
-}
-
-/// The balls of covers decide most pairs. The others become entries of the traversals.
-void GpuPairChecker::proveRootPairs()
-{
-  arguments_.prepare(COUNTER_ROOT_PAIRS, lists_.capacity.root_pairs, GROUP_SIZE, COUNTER_SCRATCH);
-  proofs_program_.set(LOCATION_ROBOT_COUNT, scene_.robotCount());
-  proofs_program_.set(LOCATION_ROOT_PAIR_CAPACITY, lists_.capacity.root_pairs);
-  proofs_program_.set(LOCATION_SOLID_NODES, scene_.solidNodes());
-  proofs_program_.set(LOCATION_HAS_COVERS, proofs_.exist() ? 1U : 0U);
   lists_.mesh_entries.buffer().bindStorage(BINDING_B);
   lists_.solid_entries.buffer().bindStorage(BINDING_D);
-  proofs_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
+  program.dispatchIndirect(lists_.counters, LIST_CANDIDATES * sizeof(std::uint32_t));
+  lists_.root_pairs.bindTexture(UNIT_ROOT_PAIRS);
+}
+
+void GpuPairChecker::testHalfSpaces()
+{
+  if (scene_.halfSpaceCount() == 0)
+    return;
+  const Program& program = programs_->half_spaces;
+  program.set(LOCATION_WORLD_COUNT, scene_.worldCount());
+  program.set(LOCATION_CANDIDATE_CAPACITY, lists_.capacity.candidates);
+  scene_.halfSpaces().bindStorage(BINDING_C);
+  program.dispatchIndirect(lists_.counters, LIST_CANDIDATES * sizeof(std::uint32_t));
 }
 
 TraversalTask GpuPairChecker::task(bool solids, bool padded) const
@@ -370,19 +373,14 @@ void GpuPairChecker::traverse(bool padded)
 }
 
 /// Tests whether a mesh or a primitive is inside a mesh. testRoots has already tested the inside of primitives.
-/// `solids`: the pairs with a primitive.
-void GpuPairChecker::testContainment(bool solids)
+void GpuPairChecker::testContainment()
 {
-  if (!scene_.hasMeshSolids() || (solids && scene_.solidNodes() == 0))
+  if (!scene_.hasMeshSolids())
     return;
-  const std::uint32_t counter = solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;
-  arguments_.prepare(counter, lists_.capacity.root_pairs, GROUP_SIZE, COUNTER_SCRATCH);
-  inside_program_.set(LOCATION_IN_COUNTER, counter);
-  inside_program_.set(LOCATION_IN_CAPACITY, lists_.capacity.root_pairs);
-  (solids ? lists_.solid_entries : lists_.mesh_entries).bindTexture(UNIT_ENTRIES);
+  inside_program_.set(LOCATION_ROOT_PAIR_CAPACITY, lists_.capacity.root_pairs);
   scene_.components().bindStorage(BINDING_C);
   scene_.leafOrder().bindStorage(BINDING_A);
   scene_.triangleRoles().bindStorage(BINDING_B);
-  inside_program_.dispatchIndirect(lists_.counters, ArgumentsKernel::argumentsOffset());
+  inside_program_.dispatchIndirect(lists_.counters, LIST_ROOT_PAIRS * sizeof(std::uint32_t));
 }
 }  // namespace gpu_planning_scene::core

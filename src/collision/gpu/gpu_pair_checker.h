@@ -12,20 +12,27 @@
 #include "collision/batch_size.h"
 #include "collision/gpu/broad_phase_order.h"
 #include "collision/gpu/gpu_margins.h"
-#include "collision/gpu/gpu_proofs.h"
 #include "collision/gpu/gpu_scene.h"
 #include "collision/gpu/pose_source.h"
+#include "collision/gpu/proofs/gpu_proofs.h"
 #include "collision/gpu/traversal/gpu_traversal.h"
 #include "gpu/readback.h"
+#include "shader_constants.h"
 
 namespace gpu_planning_scene::core
 {
-/// The GPU's results for a batch. A state without a flag is free.
-struct Verdicts
+/// The GPU's results for a batch, one word per state: VERDICT_* or the colliding pair, see GpuPairChecker::pairOf.
+using Verdicts = std::vector<std::uint32_t>;
+
+inline bool isFree(std::uint32_t verdict)
 {
-  std::vector<std::uint32_t> flags;  ///< STATE_* bits, one word per state
-  std::vector<std::uint32_t> hits;   ///< if STATE_HIT is set: the colliding pair, see pairOf
-};
+  return verdict == VERDICT_FREE || verdict == VERDICT_OPEN;
+}
+
+inline bool isHit(std::uint32_t verdict)
+{
+  return !isFree(verdict) && verdict != VERDICT_UNDECIDED;
+}
 
 /// Checks the pairs of a collision problem in many states, given the poses of the robot's instances. The steps are the
 /// broad phase, the root boxes, the traversal and the triangles. The class knows no joints. Used on the context's
@@ -45,10 +52,10 @@ class GpuPairChecker
   void setProblem(const CollisionProblem& problem);
   void selectPairs(const CollisionProblem& problem);
 
-  /// From now on, these proofs decide pairs before trees do. The proofs must be those of `problem`, whose trees and
-  /// instances are those of the last setProblem. setProblem forgets them. `tables`: the device has states and double
-  /// precision, so that joint tables can be used. If it throws, no proofs are used.
-  void useProofs(const RobotProofs& proofs, const CollisionProblem& problem, bool tables);
+  /// From now on, the proofs of this scene come first. It is made of the problem of the last setProblem or selectPairs,
+  /// each of which forgets the proofs, and with lanes::kDeviceRounding. Batches must have their states on the device
+  /// (see PoseSource::boundVariables). If it throws, no proofs are used.
+  void useProofs(const LaneScene& scene);
   const GpuScene& scene() const { return scene_; }
 
   /// Compiles the programs for batches with margins, if this has not been done.
@@ -99,24 +106,24 @@ class GpuPairChecker
     std::size_t begin = 0;
     std::size_t count = 0;
     std::uint32_t serial = 0;
-    Buffer answers;    // counters, flags and hits on the device, see AnswerOffsets
+    Buffer answers;    // counters and verdicts on the device, see AnswerOffsets
     Readback fetched;  // the same, read back
   };
 
   void start(const Batch& batch, Part& part);
   void finish(const Batch& batch, Part& part);
   bool fetch(Part& part, Verdicts& verdicts);
-  void testHalfSpaces(std::uint32_t states);
-  const Program& selfProgram(const Batch& batch);
-  void findCandidates(const Batch& batch, std::uint32_t states);
+  bool provesFirst(const Batch& batch) const;
+  void findCandidates(std::uint32_t states);
   void writeQueries();
   void learnOrder(const Verdicts& verdicts);
   void testRoots();
-  void proveRootPairs();
+  void testHalfSpaces();
   TraversalTask task(bool solids, bool padded) const;
   void prepare();
+  void prepareTraversal(bool padded);
   void traverse(bool padded);
-  void testContainment(bool solids);
+  void testContainment();
 
   std::string float_fault_;
   std::string definitions_;  // for the programs that test triangles
@@ -128,14 +135,11 @@ class GpuPairChecker
   GpuWork work_;
   BatchLists lists_;
   std::unique_ptr<GpuTraversal> traversal_;
-  ArgumentsKernel arguments_;
   std::string folder_;
   Programs plain_;
   std::optional<Programs> with_margins_;  // compiled when first needed
-  // Instead of plain_.self where joint tables are used; compiled when first needed.
-  std::optional<Program> self_with_tables_;
-  const Programs* programs_ = &plain_;  // programs of the current batch
-  Program proofs_program_, inside_program_, done_program_;
+  const Programs* programs_ = &plain_;    // programs of the current batch
+  Program inside_program_, done_program_;
   GpuMargins margins_;
   GpuProofs proofs_;
   TexelBuffer poses_, spheres_, world_queries_, self_queries_;

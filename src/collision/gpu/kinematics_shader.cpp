@@ -148,9 +148,10 @@ std::string kinematicsShader(const RobotModel& robot)
       "#include \"problem/kinematics.glsl\"\n"
       "void main()\n"
       "{\n"
-      "  const uint state = invocationIndex();\n"
-      "  if (state >= state_count)\n"
-      "    return;\n";
+      "  const uint i = invocationIndex();\n"
+      "  if (i >= (listed != 0u ? lengthOf(LIST_OPEN_STATES, state_count) : state_count))\n"
+      "    return;\n"
+      "  const uint state = listed != 0u ? open_states[i] : i;\n";
   for (std::size_t i = 0; i < robot.links().size(); ++i)
   {
     const std::string link = "link" + std::to_string(i);

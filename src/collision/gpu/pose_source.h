@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "collision/gpu/traversal/gpu_traversal.h"
 #include "gpu/buffer.h"
 
 namespace gpu_planning_scene::core
@@ -13,15 +14,21 @@ class PoseSource
  public:
   virtual ~PoseSource() = default;
 
-  /// Writes the poses for the states [begin, begin + count) of a batch. A pose takes POSE_TEXELS
-  /// texels (shaders/geometry/pose.glsl). The poses are ordered by instance, then by state (poseIndex in
-  /// shaders/problem/instance_lists.glsl). `poses` must be large enough.
-  virtual void write(std::size_t begin, std::size_t count, TexelBuffer& poses) = 0;
+  /// Begins a part: the states [begin, begin + count) of a batch.
+  virtual void begin(std::size_t begin, std::size_t count) = 0;
 
-  /// The most states that `write` takes at once.
+  /// Writes the poses for the states of the part. A pose takes POSE_TEXELS texels (shaders/geometry/pose.glsl). The
+  /// poses are ordered by instance, then by state (poseIndex in shaders/problem/instance_lists.glsl). `poses` must be
+  /// large enough.
+  virtual void place(TexelBuffer& poses) = 0;
+
+  /// The same, at least for the states of lists.open_states.
+  virtual void placeOpenStates(TexelBuffer& poses, const BatchLists& /*lists*/) { place(poses); }
+
+  /// The most states of a part.
   virtual std::size_t maxStates() const { return std::numeric_limits<std::size_t>::max(); }
 
-  /// The number of variables of a state, if `write` leaves the states bound to UNIT_STATES; otherwise 0.
+  /// The number of variables of a state, if `begin` binds the states to UNIT_STATES; otherwise 0.
   virtual std::size_t boundVariables() const { return 0; }
 };
 }  // namespace gpu_planning_scene::core

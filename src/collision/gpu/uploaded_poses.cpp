@@ -15,21 +15,21 @@ constexpr std::size_t kPosesPerChunk = 256;
 }  // namespace
 
 /// Computes the poses in double, subtracts the origin, and rounds each pose once to float.
-void UploadedPoses::write(std::size_t begin, std::size_t count, TexelBuffer& poses)
+void UploadedPoses::place(TexelBuffer& poses)
 {
   const std::vector<ShapeInstance>& instances = problem_.robot;
-  std::vector<float> rows(count * instances.size() * POSE_FLOATS);
-  parallelFor(count, kPosesPerChunk,
+  std::vector<float> rows(count_ * instances.size() * POSE_FLOATS);
+  parallelFor(count_, kPosesPerChunk,
               [&, links = std::vector<Eigen::Isometry3d>(link_count_)](std::size_t from, std::size_t to) mutable
               {
                 for (std::size_t i = from; i < to; ++i)
                 {
-                  link_poses_(begin + i, links.data());
+                  link_poses_(begin_ + i, links.data());
                   for (std::size_t k = 0; k < instances.size(); ++k)
                   {
                     Eigen::Isometry3d pose = links[static_cast<std::size_t>(instances[k].link)] * instances[k].pose;
                     pose.translation() -= problem_.origin;
-                    writePoseRows(pose, &rows[(k * count + i) * POSE_FLOATS]);
+                    writePoseRows(pose, &rows[(k * count_ + i) * POSE_FLOATS]);
                   }
                 }
               });

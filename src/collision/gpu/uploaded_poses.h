@@ -22,11 +22,18 @@ class UploadedPoses : public PoseSource
     : problem_(problem), link_count_(link_count), link_poses_(link_poses)
   {
   }
-  void write(std::size_t begin, std::size_t count, TexelBuffer& poses) override;
+  void begin(std::size_t begin, std::size_t count) override
+  {
+    begin_ = begin;
+    count_ = count;
+  }
+  void place(TexelBuffer& poses) override;
 
  private:
   const CollisionProblem& problem_;
   std::size_t link_count_;
   const LinkPoses& link_poses_;
+  std::size_t begin_ = 0;  // first state of the part
+  std::size_t count_ = 0;
 };
 }  // namespace gpu_planning_scene::core

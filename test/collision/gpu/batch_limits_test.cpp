@@ -122,9 +122,9 @@ TEST_P(BatchLimits, ListsThatOverflowSplitTheBatch)
   for (std::size_t i = 0; i < kStates; ++i)
   {
     // The order of the tests decides whether a state with a hit also has an undecided pair.
-    EXPECT_EQ(split.flags[i] & STATE_HIT, roomy.flags[i] & STATE_HIT) << "state " << i;
-    EXPECT_EQ(split.flags[i] == 0, roomy.flags[i] == 0) << "state " << i;
-    hits += roomy.flags[i] & STATE_HIT;
+    EXPECT_EQ(isHit(split[i]), isHit(roomy[i])) << "state " << i;
+    EXPECT_EQ(isFree(split[i]), isFree(roomy[i])) << "state " << i;
+    hits += isHit(roomy[i]) ? 1 : 0;
   }
   EXPECT_GT(hits, kStates / 10);
   EXPECT_LT(hits, kStates * 9 / 10);
@@ -153,8 +153,8 @@ TEST_P(BatchLimits, RootPairsMayOutnumberNodePairs)
   std::size_t hits = 0;
   for (std::size_t i = 0; i < kStates; ++i)
   {
-    EXPECT_TRUE(verdicts.flags[i] != 0 || valid[i] != 0) << "state " << i;
-    hits += verdicts.flags[i] & STATE_HIT;
+    EXPECT_TRUE(!isFree(verdicts[i]) || valid[i] != 0) << "state " << i;
+    hits += isHit(verdicts[i]) ? 1 : 0;
   }
   EXPECT_GT(hits, kStates / 4);
 }
@@ -171,10 +171,10 @@ TEST_P(BatchLimits, AStateThatOverflowsAloneIsUndecided)
   std::size_t undecided = 0;
   for (std::size_t i = 0; i < kStates; ++i)
   {
-    const bool hit = (verdicts.flags[i] & STATE_HIT) != 0;
-    EXPECT_TRUE(!hit || (roomy.flags[i] & STATE_HIT) != 0) << "state " << i;
-    EXPECT_TRUE(verdicts.flags[i] != 0 || roomy.flags[i] == 0) << "state " << i;
-    undecided += !hit && verdicts.flags[i] != 0 ? 1 : 0;
+    const bool hit = isHit(verdicts[i]);
+    EXPECT_TRUE(!hit || isHit(roomy[i])) << "state " << i;
+    EXPECT_TRUE(!isFree(verdicts[i]) || isFree(roomy[i])) << "state " << i;
+    undecided += !hit && !isFree(verdicts[i]) ? 1 : 0;
   }
   EXPECT_GT(undecided, 0U);
 }
@@ -188,7 +188,6 @@ TEST_P(BatchLimits, StacksThatAreTooShortSpill)
 TEST_P(BatchLimits, WorkThatIsLeftWhenTheIterationsRunOutIsHandedOn)
 {
   folder_.define("INVOCATION_ITERATIONS", "100");
-  folder_.define("QUEUE_MAX_GROUPS", "1");
   EXPECT_EQ(resultWithChangedShaders().valid, validOnCpu());
 }
 
@@ -239,8 +238,8 @@ TEST_P(BatchLimits, ListsThatGrowWhileTheDeviceWorksChangeNoAnswer)
   EXPECT_GT(*std::max_element(parts.begin(), parts.end()), parts.front());
   for (std::size_t i = 0; i < kMany; ++i)
   {
-    EXPECT_EQ(verdicts.flags[i] & STATE_HIT, once.flags[i % kStates] & STATE_HIT) << "state " << i;
-    EXPECT_EQ(verdicts.flags[i] == 0, once.flags[i % kStates] == 0) << "state " << i;
+    EXPECT_EQ(isHit(verdicts[i]), isHit(once[i % kStates])) << "state " << i;
+    EXPECT_EQ(isFree(verdicts[i]), isFree(once[i % kStates])) << "state " << i;
   }
 }
 
@@ -268,8 +267,8 @@ TEST_P(BatchLimits, APartHasNoMoreStatesThanTheSourceOfThePosesWrites)
   EXPECT_EQ(parts, (std::vector<std::size_t>{70, 70, 70, 70, 20}));
   for (std::size_t i = 0; i < kStates; ++i)
   {
-    EXPECT_EQ(verdicts.flags[i] & STATE_HIT, once.flags[i] & STATE_HIT) << "state " << i;
-    EXPECT_EQ(verdicts.flags[i] == 0, once.flags[i] == 0) << "state " << i;
+    EXPECT_EQ(isHit(verdicts[i]), isHit(once[i])) << "state " << i;
+    EXPECT_EQ(isFree(verdicts[i]), isFree(once[i])) << "state " << i;
   }
 }
 

@@ -66,7 +66,11 @@ void expectPosesOfTheModel(const std::shared_ptr<const RobotModel>& robot)
   const std::size_t count = problem.robot.size();
   TexelBuffer poses;
   poses.reserve(kPosedStates * count * 12 * sizeof(float));
-  kinematics.write(0, kPosedStates, poses);
+  const Buffer no_list(COUNTER_WORDS * sizeof(std::uint32_t));
+  no_list.bindStorage(BINDING_COUNTERS);
+  no_list.bindStorage(BINDING_OPEN_STATES);
+  kinematics.begin(0, kPosedStates);
+  kinematics.place(poses);
   std::vector<float> found(kPosedStates * count * 12);
   poses.buffer().read(found.data(), found.size() * sizeof(float));
 

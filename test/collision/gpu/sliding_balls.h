@@ -54,12 +54,13 @@ inline std::shared_ptr<PlanningScene> slidingBalls()
   return scene;
 }
 
-/// A cover of one ball around the origin.
+/// A cover of one ball around the origin, whose enclosing ball has no layer.
 inline std::shared_ptr<const BallCover> ballCover(double outer, double layer, double inner)
 {
   const CoverBall ball{Eigen::Vector3d::Zero(), outer, Eigen::Vector3d::Zero(), inner};
   auto cover = std::make_shared<BallCover>();
   cover->levels.fill({ball});
+  cover->levels.front().front().outer = outer + layer;
   cover->layer = layer;
   return cover;
 }

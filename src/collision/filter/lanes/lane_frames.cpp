@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "collision/filter/lanes/lane_objects.h"
-#include "collision/filter/lanes/lane_rounding.h"
 #include "model/math_constants.h"
 
 // The rounding errors of the frames add up from the root to the tips (docs/error_bounds.md, "The lane kernel").
@@ -36,7 +35,8 @@ void writeRotation(const Matrix3d& rotation, float* rows)
 }
 }  // namespace
 
-LaneFrames::LaneFrames(const RobotModel& robot, const Vector3d& origin) : limits_(robot.variables().size())
+LaneFrames::LaneFrames(const RobotModel& robot, const Vector3d& origin, const lanes::Rounding& rounding)
+  : rounding_(rounding), limits_(robot.variables().size())
 {
   Isometry3d base = Isometry3d::Identity();
   base.translation() = -origin;
@@ -99,7 +99,7 @@ int LaneFrames::addFramesOf(const RobotModel& robot, const Joint& joint, int par
   lanes::Frame frame{};
   frame.kind = lanes::FrameKind::Fixed;
   writePose(origin, frame.constant);
-  return addFrame(frame, parent, origin.translation().norm(), lanes::kConstantError);
+  return addFrame(frame, parent, origin.translation().norm(), rounding_.constant());
 }
 
 /// Adds a frame. `step`: the largest distance of its origin from the parent's; `rotation_error`: of a vector of
@@ -110,8 +110,8 @@ int LaneFrames::addFrame(lanes::Frame frame, int parent, double step, double rot
   const LaneFrameError before = parent < 0 ? LaneFrameError() : errors_[static_cast<std::size_t>(parent)];
   frames_.push_back(frame);
   errors_.push_back(
-      {step, before.largest_distance + step, before.rotation_error + rotation_error + lanes::kProductError,
-       before.position_error + before.rotation_error * step + lanes::kSumError * (before.largest_distance + step)});
+      {step, before.largest_distance + step, before.rotation_error + rotation_error + rounding_.product(),
+       before.position_error + before.rotation_error * step + rounding_.sum() * (before.largest_distance + step)});
   return static_cast<int>(frames_.size()) - 1;
 }
 
@@ -130,7 +130,7 @@ int LaneFrames::addTurn(const Joint& joint, int variable, int parent, const Isom
   writeRotation(rotation * (Matrix3d::Identity() - along), frame.first);
   writeRotation(rotation * crossProductMatrix(joint.axis), frame.second);
   limit(variable, {0.0, (kLargestLaneAngle - std::abs(joint.offset)) / std::max(1.0, std::abs(joint.multiplier))});
-  return addFrame(frame, parent, origin.translation().norm(), lanes::kTurnError);
+  return addFrame(frame, parent, origin.translation().norm(), rounding_.turn());
 }
 
 /// A frame that slides along an axis. Its position is computed relative to that for the slide's middle.
@@ -148,7 +148,7 @@ int LaneFrames::addSlide(const Slide& slide, int parent, const Isometry3d& origi
   writePose(Eigen::Isometry3d(Eigen::Translation3d(axis)), frame.first);
   limit(slide.variable, {slide.middle, slide.reach});
   return addFrame(frame, parent, middle.translation().norm() + std::abs(slide.multiplier) * slide.reach,
-                  lanes::kConstantError);
+                  rounding_.constant());
 }
 
 /// A frame that turns by a quaternion, whose x is the variable.
@@ -159,7 +159,7 @@ int LaneFrames::addQuaternion(int variable, int parent)
   frame.variable = variable;
   for (int k = 0; k < 4; ++k)
     limit(variable + k, {0.0, kLargestCoefficient});
-  return addFrame(frame, parent, 0.0, lanes::kQuaternionError);
+  return addFrame(frame, parent, 0.0, rounding_.quaternion());
 }
 
 /// If several joints share a variable (mimic joints), each of them has the middle 0.

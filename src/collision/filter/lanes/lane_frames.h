@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/filter/lanes/lane_model.h"
+#include "collision/filter/lanes/lane_rounding.h"
 #include "gpu_planning_scene/robot_model.h"
 
 namespace gpu_planning_scene::core
@@ -25,8 +26,15 @@ struct LaneFrameError
 class LaneFrames
 {
  public:
-  /// `origin`: of the kernel's coordinates, in the planning frame.
-  LaneFrames(const RobotModel& robot, const Eigen::Vector3d& origin);
+  /// The values of a variable for which the error bounds hold: those within `reach` of `middle`.
+  struct Limit
+  {
+    double middle = 0.0;
+    double reach = std::numeric_limits<double>::max();
+  };
+
+  /// `origin`: of the kernel's coordinates, in the planning frame. `rounding`: of the code that computes the frames.
+  LaneFrames(const RobotModel& robot, const Eigen::Vector3d& origin, const lanes::Rounding& rounding);
 
   const std::vector<lanes::Frame>& frames() const { return frames_; }
   int ofLink(std::size_t link) const { return frame_of_link_[link]; }
@@ -39,15 +47,10 @@ class LaneFrames
 
   /// Whether the error bounds hold for a state: no value is too large for float arithmetic.
   bool isWithinBounds(const double* state) const;
+  /// The bounds of each variable for isWithinBounds.
+  const std::vector<Limit>& limits() const { return limits_; }
 
  private:
-  /// The values of a variable for which the error bounds hold: those within `reach` of `middle`.
-  struct Limit
-  {
-    double middle = 0.0;
-    double reach = std::numeric_limits<double>::max();
-  };
-
   /// A motion along an axis, by multiplier * variable + offset.
   struct Slide
   {
@@ -66,6 +69,7 @@ class LaneFrames
   int addFrame(lanes::Frame frame, int parent, double step, double rotation_error);
   void limit(int variable, const Limit& limit);
 
+  lanes::Rounding rounding_;
   std::vector<int> frame_of_link_;
   std::vector<Eigen::Isometry3d> in_frame_;  // of each link
   std::vector<Limit> limits_;                // of each variable

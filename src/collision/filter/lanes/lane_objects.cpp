@@ -112,6 +112,27 @@ std::vector<LaneObject> laneObjects(const CollisionProblem& problem, const CpuFo
   return objects;
 }
 
+/// Only a plane along two axes cuts the box. Above a tilted plane, the half-space reaches beyond such a cut, however
+/// small the tilt is.
+AlignedBox3d boundsWithin(const LaneObject& object, double reach)
+{
+  if (object.object.kind != lanes::ObjectKind::HalfSpace)
+    return object.bounds;
+  AlignedBox3d bounds(Vector3d::Constant(-reach), Vector3d::Constant(reach));
+  const float* plane = object.object.from_planning_frame;
+  const double end = std::clamp(-static_cast<double>(plane[3]), -reach, reach);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    if (plane[(axis + 1) % 3] != 0.0F || plane[(axis + 2) % 3] != 0.0F)
+      continue;
+    if (plane[axis] == 1.0F)
+      bounds.max()[axis] = end;
+    if (plane[axis] == -1.0F)
+      bounds.min()[axis] = -end;
+  }
+  return bounds;
+}
+
 /// The order of the leaves of a tree that halves the objects along the longest extent of their centres.
 std::vector<std::uint32_t> nearOrder(const std::vector<LaneObject>& objects)
 {

@@ -22,6 +22,10 @@ struct LaneObject
 std::vector<LaneObject> laneObjects(const CollisionProblem& problem, const CpuForest& forest,
                                     const Eigen::Vector3d& origin);
 
+/// A box around an object: a point within `reach` of the origin of coordinates is not farther from the object than from
+/// the box.
+Eigen::AlignedBox3d boundsWithin(const LaneObject& object, double reach);
+
 /// The indices of the objects in an order in which neighbours are near each other.
 std::vector<std::uint32_t> nearOrder(const std::vector<LaneObject>& objects);
 

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "collision/filter/lanes/lane_objects.h"
-#include "collision/filter/lanes/lane_rounding.h"
 #include "collision/geometry/outward_rounding.h"
 
 // Each threshold includes the kernel's rounding errors (docs/error_bounds.md, "The lane kernel"). Own method.
@@ -45,12 +44,13 @@ lanes::Array<T> arrayOf(const std::vector<T>& values)
 }  // namespace
 
 LaneScene::LaneScene(const RobotModel& robot, const CollisionProblem& problem, const CpuForest& forest,
-                     std::shared_ptr<const RobotProofs> proofs)
-  : proofs_(std::move(proofs)), origin_(problem.origin), frames_(robot, problem.origin)
+                     std::shared_ptr<const RobotProofs> proofs, const lanes::Rounding& rounding)
+  : rounding_(rounding), proofs_(std::move(proofs)), origin_(problem.origin), frames_(robot, problem.origin, rounding)
 {
   for (std::size_t i = 0; i < problem.robot.size(); ++i)
     addInstance(problem.robot[i], *proofs_->covers[i], forest.tree(problem.robot[i].tree).box);
   addClusters();
+  findLinkCenters(problem);
   addSelfPairs(problem);
   addWorld(problem, forest);
   model_ = {robot.variables().size(), arrayOf(frames_.frames()), arrayOf(instances_),  arrayOf(objects_),
@@ -103,19 +103,19 @@ void LaneScene::addInstance(const ShapeInstance& instance, const BallCover& cove
   const LaneFrameError& frame = frames_.error(made.frame);
   instance_errors_.push_back({made.frame, largest_distance, frame.largest_distance + largest_distance,
                               frame.position_error + frame.rotation_error * largest_distance +
-                                  lanes::kSumError * (frame.largest_distance + largest_distance)});
-  box_errors_.push_back({frame.rotation_error + lanes::kAxisError, box.half.norm()});
+                                  rounding_.sum() * (frame.largest_distance + largest_distance)});
+  box_errors_.push_back({frame.rotation_error + rounding_.axis(), box.half.norm()});
 }
 
 /// See docs/error_bounds.md, "The lane kernel", "Boxes".
 lanes::BoxThresholds LaneScene::boxThresholds(std::uint32_t a, std::uint32_t b) const
 {
-  const double rotation = box_errors_[a].rotation + box_errors_[b].rotation + 8.0 * lanes::kUnit;
+  const double rotation = box_errors_[a].rotation + box_errors_[b].rotation + 8.0 * rounding_.unit;
   const double centers = distanceBetween(instance_errors_[a], instance_errors_[b]);
   const double lengths = centers + box_errors_[a].radius + box_errors_[b].radius;
   const double between = instance_errors_[a].position + instance_errors_[b].position + rotation * centers;
-  return {floatAbove(2.0 * between + (2.0 * rotation + 32.0 * lanes::kUnit) * lengths),
-          floatAbove(4.0 * rotation + 32.0 * lanes::kUnit)};
+  return {floatAbove(2.0 * between + (2.0 * rotation + 32.0 * rounding_.unit) * lengths),
+          floatAbove(4.0 * rotation + 32.0 * rounding_.unit)};
 }
 
 /// An upper bound of the distance between two centres. The distance from the base to the origin of coordinates is not
@@ -129,9 +129,10 @@ double LaneScene::selfError(std::uint32_t a, std::uint32_t b) const
 {
   const CenterError& first = instance_errors_[a];
   const CenterError& second = instance_errors_[b];
-  const double lengths =
-      distanceBetween(first, second) + static_cast<double>(instances_[a].outer + instances_[b].outer);
-  return first.position + second.position + lanes::kDistanceError * lengths;
+  const double between = distanceBetween(first, second);
+  const double lengths = between + static_cast<double>(instances_[a].outer + instances_[b].outer);
+  return first.position + second.position + rounding_.distance * lengths +
+         rounding_.relative * frames_.error(first.frame).rotation_error * between;
 }
 
 /// Finds clusters. A cluster is all instances that a frame moves, if a ball around the origin of the frame contains
@@ -178,6 +179,31 @@ void LaneScene::addClusters()
     }
     cluster_of_frame_.push_back(cluster);
   }
+}
+
+void LaneScene::findLinkCenters(const CollisionProblem& problem)
+{
+  const auto is_link = [&](std::uint32_t i) { return problem.robot[i].body == problem.robot[i].link; };
+  const auto instances = static_cast<std::uint32_t>(instances_.size());
+  for (std::uint32_t i = 0; i < instances; ++i)
+    if (is_link(i))
+      link_centers_.push_back(i);
+  for (std::uint32_t c = 0; c < clusters_.size(); ++c)
+  {
+    bool of_links = true;
+    for (std::uint32_t i = 0; i < instances; ++i)
+      of_links = of_links && (is_link(i) ||
+                              cluster_of_frame_[static_cast<std::size_t>(instances_[i].frame)] != static_cast<int>(c));
+    if (of_links)
+      link_centers_.push_back(instances + c);
+  }
+}
+
+bool LaneScene::isOfLinks(const lanes::SelfGroup& group) const
+{
+  const auto is_placed = [&](std::uint32_t center)
+  { return std::binary_search(link_centers_.begin(), link_centers_.end(), center); };
+  return is_placed(group.centers[0]) && is_placed(group.centers[1]);
 }
 
 /// The number of the centre near which an instance stays.
@@ -264,7 +290,7 @@ void LaneScene::addSelfGroups(std::uint32_t first)
     const Placed a = placed(centers.first);
     const Placed b = placed(centers.second);
     const double error = a.error.position + b.error.position +
-                         lanes::kDistanceError * (distanceBetween(a.error, b.error) + a.radius + b.radius);
+                         rounding_.distance * (distanceBetween(a.error, b.error) + a.radius + b.radius);
     const bool is_tested = end - p > 1 && centers.first != centers.second;
     self_groups_.push_back(
         {{centers.first, centers.second},
@@ -300,7 +326,7 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
       for (int axis = 0; axis < 3; ++axis)
       {
         group.center[axis] = static_cast<float>(bounds.center()[axis]);
-        const double rounding = 4.0 * lanes::kUnit * (std::abs(bounds.center()[axis]) + 0.5 * bounds.sizes()[axis]);
+        const double rounding = 4.0 * rounding_.unit * (std::abs(bounds.center()[axis]) + 0.5 * bounds.sizes()[axis]);
         group.half[axis] = floatAbove(0.5 * bounds.sizes()[axis] + rounding);
       }
       world_groups_.push_back(group);
@@ -314,14 +340,16 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
       const LaneObject& object = objects[o];
       const double required = problem.robot[b].padding + object.padding;
       const double error = instance_errors_[b].position +
-                           lanes::kDistanceError * (instance_errors_[b].largest_distance + object.largest_distance +
-                                                    required + static_cast<double>(instances_[b].outer));
+                           rounding_.distance * (instance_errors_[b].largest_distance + object.largest_distance +
+                                                 required + static_cast<double>(instances_[b].outer));
       const double layer = object.thickness > cover.layer ? 0.0 : cover.layer;
       const lanes::Thresholds thresholds = {floatAbove(required + error), floatAbove(required + layer + error),
                                             floatBelow(required - error)};
       const Vector3d growth = Vector3d::Constant(static_cast<double>(thresholds.enclosing));
-      bounds.extend(object.bounds.min() - growth);
-      bounds.extend(object.bounds.max() + growth);
+      const Eigen::AlignedBox3d box =
+          boundsWithin(object, instance_errors_[b].largest_distance + static_cast<double>(instances_[b].outer));
+      world_bounds_.emplace_back(box.min() - growth, box.max() + growth);
+      bounds.extend(world_bounds_.back());
       world_pairs_.push_back({b, o, thresholds});
       pairs_.push_back({b, static_cast<std::uint32_t>(problem.robot.size()) + o});
       if (world_pairs_.size() - first == kGroup)

@@ -17,18 +17,28 @@
 
 namespace gpu_planning_scene::core
 {
-/// A collision problem in the form of the lane kernel, with thresholds that include the kernel's rounding errors
-/// (docs/error_bounds.md). Immutable.
+/// A collision problem in the form of the lane kernel, with thresholds that include the rounding errors of the code
+/// that uses them (docs/error_bounds.md). Immutable.
 class LaneScene
 {
  public:
   LaneScene(const RobotModel& robot, const CollisionProblem& problem, const CpuForest& forest,
-            std::shared_ptr<const RobotProofs> proofs);
+            std::shared_ptr<const RobotProofs> proofs, const lanes::Rounding& rounding = lanes::kKernelRounding);
 
   const lanes::Model& model() const { return model_; }
 
   /// Whether the error bounds hold for a state: no value is too large for float arithmetic.
   bool isWithinBounds(const double* state) const { return frames_.isWithinBounds(state); }
+  const LaneFrames& frames() const { return frames_; }
+
+  /// The centres (of instances and clusters, see lanes::SelfGroup) that attached objects have no part in.
+  const std::vector<std::uint32_t>& linkCenters() const { return link_centers_; }
+  /// Whether attached objects have no part in a group.
+  bool isOfLinks(const lanes::SelfGroup& group) const;
+
+  /// For each world pair of the kernel, a box in the kernel's coordinates. If the centre of the instance's enclosing
+  /// ball is farther from it than the radius of the ball, the pair is apart.
+  const std::vector<Eigen::AlignedBox3d>& worldBounds() const { return world_bounds_; }
 
   /// The instances of a pair of the kernel.
   const InstancePair& instancesOf(std::uint32_t pair) const { return pairs_[pair]; }
@@ -55,6 +65,7 @@ class LaneScene
 
   void addInstance(const ShapeInstance& instance, const BallCover& cover, const OrientedBox& box);
   void addClusters();
+  void findLinkCenters(const CollisionProblem& problem);
   void addSelfPairs(const CollisionProblem& problem);
   void addSelfPair(std::size_t p, const CollisionProblem& problem);
   void addSelfGroups(std::uint32_t first);
@@ -64,6 +75,7 @@ class LaneScene
   double selfError(std::uint32_t a, std::uint32_t b) const;
   lanes::BoxThresholds boxThresholds(std::uint32_t a, std::uint32_t b) const;
 
+  lanes::Rounding rounding_;
   std::shared_ptr<const RobotProofs> proofs_;
   Eigen::Vector3d origin_;  // of the kernel's coordinates, in the planning frame
   LaneFrames frames_;
@@ -80,6 +92,8 @@ class LaneScene
   std::vector<lanes::SelfGroup> self_groups_;
   std::vector<lanes::WorldPair> world_pairs_;
   std::vector<lanes::WorldGroup> world_groups_;
+  std::vector<Eigen::AlignedBox3d> world_bounds_;
+  std::vector<std::uint32_t> link_centers_;  // ascending
   std::vector<InstancePair> pairs_;
   std::vector<std::size_t> self_pair_of_;
   lanes::Model model_ = {};

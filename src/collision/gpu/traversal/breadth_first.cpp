@@ -51,7 +51,7 @@ void BreadthFirst::start(BatchLists& lists, const TraversalTask& task)
   if (task.endsEarly())
     overlap.setFloat(LOCATION_TOLERANCE, task.tolerance);
   const std::uint32_t capacity = lists.capacity.node_pairs;
-  std::uint32_t in_counter = task.solids ? COUNTER_SOLID_ENTRIES : COUNTER_MESH_ENTRIES;
+  std::uint32_t in_counter = (task.solids ? LIST_SOLID_ENTRIES : LIST_MESH_ENTRIES) + LIST_LENGTH;
   arguments_.prepare(in_counter, lists.capacity.root_pairs, LEVEL_GROUP, COUNTER_ENTRIES_ODD);
   for (const Program* program : level_programs)
   {

@@ -16,9 +16,10 @@ namespace gpu_planning_scene::core
 /// Capacities of the lists of a part of a batch, in entries. If a list overflows, the part is split.
 struct ListCapacities
 {
-  std::uint32_t candidates = 0;  ///< pairs of instances whose spheres or outer boxes overlap
+  std::uint32_t open_pairs = 0;  ///< pairs that enclosing balls do not prove, of each kind
+  std::uint32_t candidates = 0;  ///< pairs of instances for the trees
   std::uint32_t root_pairs = 0;  ///< candidates whose root boxes overlap
-  std::uint32_t node_pairs = 0;  ///< of one level (breadth-first), or left for another pass (work queues)
+  std::uint32_t node_pairs = 0;  ///< of one level (breadth-first), or left for the last pass (work queues)
   std::uint32_t leaf_pairs = 0;  ///< leaf pairs of one level (breadth-first)
 };
 
@@ -36,10 +37,15 @@ class BatchLists
   void reserve(std::size_t states, std::size_t max_bytes);
 
   ListCapacities capacity;
+  /// Fills the counters with those of empty lists.
+  void clearCounters();
+
   Buffer counters;
+  Buffer open_self_pairs, open_world_pairs, fine_pairs, open_states;
   TexelBuffer candidates, root_pairs;
   TexelBuffer mesh_entries, solid_entries;  ///< node pairs to start from: of two meshes; of a mesh and a solid
-  std::array<TexelBuffer, 2> node_pairs;    ///< node pairs for the next level or pass, by turns
+  /// Breadth-first: node pairs for the next level, by turns. Work queues: those for the last pass, solids first.
+  std::array<TexelBuffer, 2> node_pairs;
 
  private:
   ListCapacities fixed_;
@@ -91,13 +97,17 @@ class GpuTraversal
   /// counters[COUNTER_OVERFLOW] if work is left undone, because a list overflowed or the device ended invocations
   /// early.
   virtual void start(BatchLists& lists, const TraversalTask& task) = 0;
+
+  /// Whether the passes have counters (PASS_*) that the last dispatch of a part must check.
+  virtual bool hasQueues() const { return false; }
 };
 
 /// `definitions`: preprocessor definitions for the programs, see Program.
 std::unique_ptr<GpuTraversal> makeTraversal(Traversal traversal, const std::string& shader_folder,
                                             const std::string& definitions);
 
-/// A kernel that computes the size of a later indirect dispatch on the device.
+/// A kernel that computes the size of a later indirect dispatch on the device, for lists that do not count their work
+/// groups.
 class ArgumentsKernel
 {
  public:
@@ -108,7 +118,6 @@ class ArgumentsKernel
   /// Writes the indirect arguments for a list of counters[counter] elements, at most `capacity`, in work groups that
   /// handle `invocations` elements each. Sets counters[cleared] to 0.
   void prepare(std::uint32_t counter, std::uint32_t capacity, std::uint32_t invocations, std::uint32_t cleared) const;
-  static std::size_t argumentsOffset();
 
  private:
   Program program_;
