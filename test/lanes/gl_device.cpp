@@ -341,7 +341,7 @@ void dispatchComputeIndirect(GLintptr offset)
 GLsync fenceSync(GLenum, GLbitfield)
 {
   commands().add([] {});  // so that the number is not 0
-  return reinterpret_cast<GLsync>(commands().lastAdded());
+  return reinterpret_cast<GLsync>(commands().lastAdded());  // NOLINT(performance-no-int-to-ptr): OpenGL's type
 }
 
 GLenum clientWaitSync(GLsync fence, GLbitfield, GLuint64)

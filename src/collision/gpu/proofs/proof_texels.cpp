@@ -236,7 +236,7 @@ class Writer
     for (std::uint32_t o = 0; o < model_.objects.count; ++o)
     {
       const lanes::Object& object = model_.objects[o];
-      for (int row = 0; row < 3; ++row)
+      for (std::size_t row = 0; row < 3; ++row)
       {
         const float* entries = object.from_planning_frame + 4 * row;
         texels_.push_back(numbers(entries[0], entries[1], entries[2], entries[3]));
