@@ -340,7 +340,7 @@ void dispatchComputeIndirect(GLintptr offset)
 /// A fence is the number of the last command before it.
 GLsync fenceSync(GLenum, GLbitfield)
 {
-  commands().add([] {});  // so that the number is not 0
+  commands().add([] {});                                    // so that the number is not 0
   return reinterpret_cast<GLsync>(commands().lastAdded());  // NOLINT(performance-no-int-to-ptr): OpenGL's type
 }
 
