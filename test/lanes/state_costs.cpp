@@ -48,10 +48,11 @@ void measure(const TestScene& scene, std::size_t states, Traversal traversal)
   ForestCache forest;
   forest.traversalOf(problem);
   const auto proofs = std::make_shared<const RobotProofs>(proofsOf(*scene.scene->robot, problem, forest));
-  checker.useProofs(LaneScene(*scene.scene->robot, *problem, *forest.forest(), proofs,
-                              gpu_planning_scene::core::lanes::kDeviceRounding));
   GpuKinematics kinematics(kShaders, scene.scene->robot);
   kinematics.setInstances(*problem);
+  checker.useProofs(LaneScene(*scene.scene->robot, *problem, *forest.forest(), proofs,
+                              gpu_planning_scene::core::lanes::kDeviceRounding),
+                    kinematics);
   ::lanes::WorkCounts counts;
   Verdicts verdicts;
   for (int batch = 1; batch <= kBatches; ++batch)

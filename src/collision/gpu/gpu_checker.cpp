@@ -169,7 +169,7 @@ void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
   const LaneScene scene(*robot_, *problem_, *trees_->forest(), proofs, lanes::kDeviceRounding);
   try
   {
-    startOnDevice([&] { pairs_->useProofs(scene); }).get();
+    startOnDevice([&] { pairs_->useProofs(scene, *kinematics_); }).get();
   }
   catch (const DeviceLost&)
   {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 
+#include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/part_limits.h"
+#include "collision/gpu/proofs/frame_check.h"
 #include "gpu/float_arithmetic.h"
 #include "gpu/gl_check.h"
 #include "gpu_planning_scene/error.h"
@@ -88,11 +90,34 @@ void GpuPairChecker::selectPairs(const CollisionProblem& problem)
   prepare();
 }
 
-void GpuPairChecker::useProofs(const LaneScene& scene)
+void GpuPairChecker::useProofs(const LaneScene& scene, GpuKinematics& kinematics)
 {
   if (!float_fault_.empty())
     return;  // they would prove nothing
   proofs_.set(scene);
+  if (const std::string fault = faultOfProofs(scene, kinematics); !fault.empty())
+  {
+    proofs_.clear();
+    throw Error(fault);
+  }
+}
+
+/// Places the frames of some states on the device, and compares them with the robot model.
+std::string GpuPairChecker::faultOfProofs(const LaneScene& scene, GpuKinematics& kinematics)
+{
+  const std::vector<double> states = statesOfFrameCheck(*kinematics.robot());
+  Buffer answers(kFrameCheckStates * sizeof(std::uint32_t));
+  answers.clear(0, answers.size(), VERDICT_UNDECIDED);
+  lists_.reserve(kFrameCheckStates, TexelBuffer::maxBytes());
+  lists_.clearCounters();
+  lists_.counters.bindStorage(BINDING_COUNTERS);
+  answers.bindStorage(BINDING_VERDICTS);
+  kinematics.setStates(states.data());
+  kinematics.begin(0, kFrameCheckStates);
+  proofs_.start({kFrameCheckStates, scene_.robotCount(), 0}, lists_);
+  std::vector<std::uint32_t> verdicts(kFrameCheckStates);
+  answers.read(verdicts.data(), verdicts.size() * sizeof(std::uint32_t));
+  return findFrameFault(*kinematics.robot(), scene, states, proofs_.readFrames(kFrameCheckStates), verdicts);
 }
 
 /// Compiles programs, sizes the parts and allocates the lists, so that the first batch does not have to. The next

@@ -21,6 +21,8 @@
 
 namespace gpu_planning_scene::core
 {
+class GpuKinematics;
+
 /// The GPU's results for a batch, one word per state: VERDICT_* or the colliding pair, see GpuPairChecker::pairOf.
 using Verdicts = std::vector<std::uint32_t>;
 
@@ -53,9 +55,10 @@ class GpuPairChecker
   void selectPairs(const CollisionProblem& problem);
 
   /// From now on, the proofs of this scene come first. It is made of the problem of the last setProblem or selectPairs,
-  /// each of which forgets the proofs, and with lanes::kDeviceRounding. Batches must have their states on the device
-  /// (see PoseSource::boundVariables). If it throws, no proofs are used.
-  void useProofs(const LaneScene& scene);
+  /// each of which forgets the proofs, and with lanes::kDeviceRounding. `kinematics`: of its robot; its states change.
+  /// Batches must have their states on the device (see PoseSource::boundVariables). Throws Error, and uses no proofs, if
+  /// a program does not compile, or if the device places frames elsewhere than the robot model.
+  void useProofs(const LaneScene& scene, GpuKinematics& kinematics);
   const GpuScene& scene() const { return scene_; }
 
   /// Compiles the programs for batches with margins, if this has not been done.
@@ -114,6 +117,7 @@ class GpuPairChecker
   void finish(const Batch& batch, Part& part);
   bool fetch(Part& part, Verdicts& verdicts);
   bool provesFirst(const Batch& batch) const;
+  std::string faultOfProofs(const LaneScene& scene, GpuKinematics& kinematics);
   void findCandidates(std::uint32_t states);
   void writeQueries();
   void learnOrder(const Verdicts& verdicts);

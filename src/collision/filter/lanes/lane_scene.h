@@ -30,6 +30,8 @@ class LaneScene
   /// Whether the error bounds hold for a state: no value is too large for float arithmetic.
   bool isWithinBounds(const double* state) const { return frames_.isWithinBounds(state); }
   const LaneFrames& frames() const { return frames_; }
+  /// Of the kernel's coordinates, in the planning frame.
+  const Eigen::Vector3d& origin() const { return origin_; }
 
   /// The centres (of instances and clusters, see lanes::SelfGroup) that attached objects have no part in.
   const std::vector<std::uint32_t>& linkCenters() const { return link_centers_; }

@@ -94,4 +94,11 @@ void GpuProofs::start(const Part& part, BatchLists& lists)
         std::pair(&*made.fine_pairs, LIST_FINE_PAIRS)})
     program->dispatchIndirect(lists.counters, list * sizeof(std::uint32_t));
 }
+
+std::vector<float> GpuProofs::readFrames(std::size_t states) const
+{
+  std::vector<float> rows(states * frame_count_ * POSE_FLOATS);
+  frames_.buffer().read(rows.data(), rows.size() * sizeof(float));
+  return rows;
+}
 }  // namespace gpu_planning_scene::core

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "collision/gpu/traversal/gpu_traversal.h"
 #include "gpu/buffer.h"
@@ -52,6 +53,9 @@ class GpuProofs
   /// Starts the proofs of a part. The pairs that they leave open are added to lists.candidates, and their states to
   /// lists.open_states.
   void start(const Part& part, BatchLists& lists);
+
+  /// Reads the frames of a part of `states` states.
+  std::vector<float> readFrames(std::size_t states) const;
 
  private:
   /// The programs for batches without margins, or for those with margins; compiled when first needed.
