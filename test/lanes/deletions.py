@@ -36,7 +36,7 @@ BITS = {"GL_TEXTURE_FETCH_BARRIER_BIT": 0x8, "GL_COMMAND_BARRIER_BIT": 0x40, "GL
 # Tasks for a folder of shaders; others try all tasks.
 BATCHES = ["work_queue", "breadth_first"]
 FUNCTIONS = ["transforms", "triangles", "distances", "kinematics", "arithmetic", "crossings", "containment", "solids",
-             "boxes", "far_links", "half_spaces", "balls"]
+             "boxes", "far_links", "half_spaces", "balls", "proofs", "turning_boxes"]
 # With --quick, and for two `precise`, only the function tasks of the file are tried.
 FUNCTION_OF = {
     "shaders/broad_phase/half_spaces.comp": ["half_spaces"],
@@ -47,6 +47,13 @@ FUNCTION_OF = {
     "shaders/geometry/triangle_pair.glsl": ["triangles", "distances"],
     "shaders/geometry/winding_number.glsl": ["crossings", "containment"],
     "shaders/problem/kinematics.glsl": ["kinematics"],
+    "shaders/proofs/boxes.glsl": ["turning_boxes"],
+    "shaders/proofs/covers.glsl": ["proofs", "turning_boxes"],
+    "shaders/proofs/distances.glsl": ["proofs"],
+    "shaders/proofs/joint_kinematics.glsl": ["turning_boxes"],
+    "shaders/proofs/records.glsl": ["turning_boxes", "proofs"],
+    "shaders/proofs/self_pair.glsl": ["proofs", "turning_boxes"],
+    "shaders/proofs/state_proofs.glsl": ["proofs", "turning_boxes"],
     "shaders/self_test/float_arithmetic.comp": ["arithmetic"],
     "shaders/traversal/solid_leaf.glsl": ["solids"],
     "shaders/traversal/solid_nodes.glsl": ["solids"],

@@ -18,23 +18,64 @@ namespace
 {
 constexpr std::size_t kStates = 32;
 
-/// The scene with its proofs, made once.
+/// Two small boxes far from the base, each at the end of an arm that turns, so that positions and rotations have large
+/// rounding errors compared with the boxes; among a box, a cylinder and a stone.
+std::shared_ptr<const PlanningScene> turningBoxes()
+{
+  const auto link = [](const std::string& name, const std::string& size)
+  { return "<link name='" + name + "'><collision><geometry><box size='" + size + "'/></geometry></collision></link>"; };
+  const auto joint = [](const std::string& type, const std::string& parent, const std::string& child,
+                        const std::string& place, const std::string& axis)
+  {
+    return "<joint name='to_" + child + "' type='" + type + "'><parent link='" + parent + "'/><child link='" + child +
+           "'/><origin xyz='" + place + "' rpy='0.3 0.2 0.1'/><axis xyz='" + axis +
+           "'/><limit lower='-0.02' upper='0.02' effort='1' velocity='1'/></joint>";
+  };
+  const auto robot = RobotModel::fromXml(
+      "<robot name='turning_boxes'>" + link("base", "0.1 0.1 0.1") + "<link name='first'/><link name='second'/>" +
+          link("left", "0.02 0.03 0.04") + link("right", "0.05 0.01 0.02") +
+          joint("revolute", "base", "first", "0 0 0.1", "0 0.6 0.8") +
+          joint("revolute", "first", "left", "2 0 0", "0.8 0 0.6") +
+          joint("revolute", "base", "second", "0 0.02 0.1", "0.6 0 0.8") +
+          joint("prismatic", "second", "right", "2 0.01 0.01", "0 0.6 0.8") + "</robot>",
+      "", {});
+  auto scene = std::make_shared<PlanningScene>(robot);
+  std::vector<Eigen::Isometry3d> links(robot->links().size());
+  robot->linkPoses(std::vector<double>(robot->variables().size()).data(), links.data());
+  const auto add = [&](const std::string& id, const Shape& shape, const Eigen::Vector3d& from_left)
+  {
+    Eigen::Isometry3d pose(Eigen::AngleAxisd(0.7, Eigen::Vector3d(1.0, 2.0, 3.0).normalized()));
+    pose.translation() = links.back().translation() + from_left;
+    scene->objects.push_back({id, pose, {{shape, Eigen::Isometry3d::Identity()}}, 0.0});
+  };
+  add("box", Box{{0.03, 0.02, 0.05}}, {0.06, 0.0, 0.0});
+  add("can", Cylinder{0.02, 0.04}, {0.0, 0.07, 0.0});
+  add("stone", tessellate(Box{{0.03, 0.03, 0.02}}).mesh, {0.0, 0.0, 0.06});
+  return scene;
+}
+
+/// A scene with its proofs, made once. `limit`: of the values of all joints, from the negative to the positive.
 struct Proven
 {
-  Proven()
+  Proven(std::shared_ptr<const PlanningScene> of, double largest, bool exact_covers)
+    : scene(std::move(of)),
+      limit(largest),
+      problem(std::make_shared<const CollisionProblem>(makeProblem(*scene, "", nullptr))),
+      exact(forest.traversalOf(problem))
   {
     RobotProver prover;
     prover.prove(
         *scene->robot, *problem, forest.forest(), ProofCache(), [this](RobotProofs made) { proofs = std::move(made); },
         [] { return false; });
-    proofs.covers = exactCovers(*problem, *scene->robot);
+    if (exact_covers)
+      proofs.covers = exactCovers(*problem, *scene->robot);
   }
 
-  std::shared_ptr<const PlanningScene> scene = slidingBalls();
-  std::shared_ptr<const CollisionProblem> problem =
-      std::make_shared<const CollisionProblem>(makeProblem(*scene, "", nullptr));
+  std::shared_ptr<const PlanningScene> scene;
+  double limit;
+  std::shared_ptr<const CollisionProblem> problem;
   ForestCache forest;
-  std::unique_ptr<const CpuTraversal> exact = forest.traversalOf(problem);
+  std::unique_ptr<const CpuTraversal> exact;
   RobotProofs proofs;
 
   bool isFree(const std::vector<double>& state) const
@@ -53,11 +94,10 @@ std::vector<double> between(const std::vector<double>& from, const std::vector<d
     state.push_back(from[i] + share * (to[i] - from[i]));
   return state;
 }
-}  // namespace
 
-std::vector<std::string> checkProofs(const std::string& shaders, std::uint64_t seed)
+/// Checks states near contact, and returns a line for each wrong verdict.
+std::vector<std::string> checkNearContact(const Proven& proven, const std::string& shaders, std::uint64_t seed)
 {
-  static const Proven proven;
   std::mt19937_64 generator(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const std::size_t width = proven.scene->robot->variables().size();
@@ -65,7 +105,7 @@ std::vector<std::string> checkProofs(const std::string& shaders, std::uint64_t s
   {
     std::vector<double> state(width);
     for (double& value : state)
-      value = kSlide * uniform(generator);
+      value = proven.limit * uniform(generator);
     return state;
   };
   std::vector<double> states;
@@ -106,6 +146,19 @@ std::vector<std::string> checkProofs(const std::string& shaders, std::uint64_t s
                       (result.valid[i] != 0 ? "free" : "a collision"));
   }
   return wrong;
+}
+}  // namespace
+
+std::vector<std::string> checkProofs(const std::string& shaders, std::uint64_t seed)
+{
+  static const Proven proven(slidingBalls(), kSlide, true);
+  return checkNearContact(proven, shaders, seed);
+}
+
+std::vector<std::string> checkTurningBoxes(const std::string& shaders, std::uint64_t seed)
+{
+  static const Proven proven(turningBoxes(), 0.02, false);
+  return checkNearContact(proven, shaders, seed);
 }
 
 std::vector<std::string> checkBalls(const std::string& shaders, std::uint64_t seed)

@@ -290,6 +290,7 @@ const std::map<std::string, Task>& tasks()
       {"far_links", checkFarLinks},
       {"half_spaces", checkHalfSpaces},
       {"proofs", checkProofs},
+      {"turning_boxes", checkTurningBoxes},
       {"balls", checkBalls},
   };
   return all;

@@ -28,6 +28,7 @@ std::vector<std::string> checkFarLinks(const std::string& shaders, std::uint64_t
 // States near contact that balls and joint tables decide: the checker's answers, compared with those of the exact
 // checker.
 std::vector<std::string> checkProofs(const std::string& shaders, std::uint64_t seed);
+std::vector<std::string> checkTurningBoxes(const std::string& shaders, std::uint64_t seed);
 // Two centres of balls, far from the origin and near each other.
 std::vector<std::string> checkBalls(const std::string& shaders, std::uint64_t seed);
 // A box near a half-space: the checker's answers, compared with those of the exact checker.
