@@ -92,8 +92,9 @@
 #define SELF_PAIR_TEXELS 2
 #define WORLD_GROUP_TEXELS 2
 #define OBJECT_TEXELS 4
-#define INSTANCE_BOX_TEXELS 4                     // of the box of an instance: three axes, the centre
-#define INSTANCE_BALLS (1 + INSTANCE_BOX_TEXELS)  // first texel of the outer balls
+#define INSTANCE_AXES 1        // first texel of the three axes of the box of an instance
+#define INSTANCE_BOX_CENTER 4  // texel of the centre of this box
+#define INSTANCE_BALLS 5       // first texel of the outer balls
 #define INSTANCE_RADII (INSTANCE_BALLS + COVER_BALLS)
 #define INSTANCE_WITNESSES (INSTANCE_RADII + COVER_BALLS / TEXEL_WORDS)
 #define INSTANCE_RECORD_TEXELS (INSTANCE_WITNESSES + COVER_BALLS)

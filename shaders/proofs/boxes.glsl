@@ -13,14 +13,14 @@ PlacedBox placedBox(ProofInstance instance, FrameRows frame)
   PlacedBox box;
   for (int i = 0; i < 3; ++i)
   {
-    const vec4 axis = proofNumbers(instance.at + 1u + uint(i));
+    const vec4 axis = proofNumbers(instance.at + INSTANCE_AXES + uint(i));
     precise const vec3 placed = vec3(fma(frame.x.x, axis.x, fma(frame.x.y, axis.y, frame.x.z * axis.z)),
                                      fma(frame.y.x, axis.x, fma(frame.y.y, axis.y, frame.y.z * axis.z)),
                                      fma(frame.z.x, axis.x, fma(frame.z.y, axis.y, frame.z.z * axis.z)));
     box.axes[i] = placed;
     box.half_lengths[i] = axis.w;
   }
-  box.center = placedIn(frame, proofNumbers(instance.at + INSTANCE_BOX_TEXELS).xyz);
+  box.center = placedIn(frame, proofNumbers(instance.at + INSTANCE_BOX_CENTER).xyz);
   return box;
 }
 

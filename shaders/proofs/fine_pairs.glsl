@@ -1,5 +1,5 @@
-// The list of pairs of both kinds that the first tests of open pairs leave open. An entry is a state and the number of
-// the pair: first the self pairs, then those with the world.
+// The list of the pairs of links that boxes leave open, and of the pairs with the world that coarse balls leave open.
+// An entry is a state and the number of the pair. The self pairs are counted first, then the pairs with the world.
 #include "proofs/open_pairs.glsl"
 layout(std430, binding = BINDING_A) buffer FinePairs { uvec2 fine_pairs[]; };
 

@@ -4,8 +4,8 @@
 // file has what the generated part of the shader uses (src/collision/gpu/proofs/state_shader.cpp); state_main.glsl
 // follows it. Lengths are in metres.
 //
-// The loops that run at most once stand for branches: on llvmpipe, a
-// branch costs all invocations time, but a loop only those that enter it.
+// The loops that run at most once stand for branches: on llvmpipe, a branch costs all invocations time, but a loop only
+// those that enter it.
 #include "common/comparisons.glsl"
 #include "geometry/pose.glsl"
 #include "problem/instance_lists.glsl"
@@ -66,8 +66,9 @@ float squaredDistanceFromBox(vec3 to, vec3 half_lengths)
   return dot(beyond, beyond);
 }
 
-// The pairs of an instance with the world, in groups: the box of a group contains its objects, grown by the thresholds.
-// Each pair has a box inside it, in steps of the box of the group.
+// Tests the pairs of an instance with the world. The box of a group contains the objects of several pairs, grown by
+// their thresholds. If the enclosing ball is near this box, it is compared with the box of each object, whose ends are
+// counted in steps of the half lengths of the group's box.
 void proveWorldPairs(uint state, Records records, uint instance, vec3 center)
 {
   const uvec4 head = proofWords(records.world_instances + instance);

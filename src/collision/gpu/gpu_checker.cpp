@@ -161,7 +161,7 @@ void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
     return;
   requireUsableScene();
   proofs_ = proofs;
-  // The device proves verdicts of states that it has.
+  // The device proves verdicts only if it places the links itself.
   if (!kinematics_ || !kinematics_fault_.empty() || !LaneChecker::suits(*problem_) || !suitsShader(*problem_))
     return;
   if (!on_cpu_)

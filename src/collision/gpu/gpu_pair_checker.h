@@ -54,10 +54,10 @@ class GpuPairChecker
   void setProblem(const CollisionProblem& problem);
   void selectPairs(const CollisionProblem& problem);
 
-  /// From now on, the proofs of this scene come first. It is made of the problem of the last setProblem or selectPairs,
-  /// each of which forgets the proofs, and with lanes::kDeviceRounding. `kinematics`: of its robot; its states change.
-  /// Batches must have their states on the device (see PoseSource::boundVariables). Throws Error, and uses no proofs, if
-  /// a program does not compile, or if the device places frames elsewhere than the robot model.
+  /// From now on, the proofs of a scene come first, until the next setProblem or selectPairs. The scene is that of the
+  /// last of these two calls, made with lanes::kDeviceRounding. `kinematics`: of its robot; its states change. Batches
+  /// must have their states on the device (see PoseSource::boundVariables). Throws Error, and uses no proofs, if a
+  /// program does not compile, or if the device places frames elsewhere than the robot model.
   void useProofs(const LaneScene& scene, GpuKinematics& kinematics);
   const GpuScene& scene() const { return scene_; }
 

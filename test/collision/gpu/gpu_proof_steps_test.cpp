@@ -22,7 +22,7 @@ constexpr std::uint32_t kStatesOfStep = 2000;
 /// A pair in a state.
 using OpenPair = std::pair<std::uint32_t, std::uint32_t>;
 
-/// What a step left open.
+/// The verdicts of the states, and the lists of open pairs.
 struct StepResult
 {
   std::vector<std::uint32_t> verdicts;

@@ -43,6 +43,7 @@ std::string findFrameFault(const RobotModel& robot, const LaneScene& scene, cons
                            const std::vector<float>& rows, const std::vector<std::uint32_t>& verdicts)
 {
   const std::size_t width = robot.variables().size();
+  const std::vector<int> places = placesOfFrames(scene.model());
   std::vector<Eigen::Isometry3d> links(robot.links().size());
   for (std::size_t state = 0; state < kFrameCheckStates; ++state)
   {
@@ -52,7 +53,7 @@ std::string findFrameFault(const RobotModel& robot, const LaneScene& scene, cons
     for (std::size_t link = 0; link < links.size(); ++link)
     {
       const int frame = scene.frames().ofLink(link);
-      const int place = placeOf(scene.model(), frame);
+      const int place = places[static_cast<std::size_t>(frame)];
       if (place < 0)
         continue;
       Eigen::Isometry3d pose = links[link];

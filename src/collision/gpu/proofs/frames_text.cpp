@@ -150,12 +150,13 @@ std::string centerLines(const LaneScene& scene, std::uint32_t center, const Fram
 std::string framesText(const LaneScene& scene)
 {
   const lanes::Model& model = scene.model();
+  const std::vector<int> places = placesOfFrames(model);
   std::string text;
   for (std::size_t i = 0; i < model.frames.count; ++i)
   {
     const FrameText frame(model.frames[i], i);
     text += frame.lines();
-    if (const int place = placeOf(model, static_cast<int>(i)); place >= 0)
+    if (const int place = places[i]; place >= 0)
       text += "  writeFrame(state, " + std::to_string(place) + "u, " + frame.rows() + ");\n";
     text += "#if CENTER_ARRAY\n  placeAttached(records, " + std::to_string(i) + "u, " + frame.rows() +
             ", centers);\n#endif\n";

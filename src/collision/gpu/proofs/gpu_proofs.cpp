@@ -40,9 +40,8 @@ void GpuProofs::set(const LaneScene& scene)
   const std::vector<ProofTexel> texels = proofTexels(scene);
   records_.reserve(texels.size() * sizeof(ProofTexel));
   records_.buffer().write(texels);
-  frame_count_ = 0;
-  for (std::uint32_t f = 0; f < model.frames.count; ++f)
-    frame_count_ += placeOf(model, static_cast<int>(f)) >= 0 ? 1 : 0;
+  const std::vector<int> places = placesOfFrames(model);
+  frame_count_ = static_cast<std::size_t>(std::count_if(places.begin(), places.end(), [](int p) { return p >= 0; }));
   exist_ = true;
 }
 

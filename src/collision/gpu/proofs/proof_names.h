@@ -1,7 +1,7 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
+#include <vector>
 
 #include "collision/filter/lanes/lane_model.h"
 #include "model/text/number_text.h"
@@ -39,19 +39,15 @@ inline int frameOf(const lanes::Model& model, std::uint32_t center)
                                         : model.clusters[center - model.instances.count].frame;
 }
 
-/// The place of a frame among the frames that have instances; -1: it has none.
-inline int placeOf(const lanes::Model& model, int frame)
+/// For each frame, its place among the frames that have instances, or -1 if it has none.
+inline std::vector<int> placesOfFrames(const lanes::Model& model)
 {
-  const auto has_instance = [&model](int f)
-  {
-    return std::any_of(model.instances.data, model.instances.data + model.instances.count,
-                       [f](const lanes::Instance& instance) { return instance.frame == f; });
-  };
-  if (!has_instance(frame))
-    return -1;
-  int place = 0;
-  for (int f = 0; f < frame; ++f)
-    place += has_instance(f) ? 1 : 0;
-  return place;
+  std::vector<int> places(model.frames.count, -1);
+  for (std::uint32_t i = 0; i < model.instances.count; ++i)
+    places[static_cast<std::size_t>(model.instances[i].frame)] = 0;
+  int next = 0;
+  for (int& place : places)
+    place = place < 0 ? -1 : next++;
+  return places;
 }
 }  // namespace gpu_planning_scene::core

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
-#include "collision/geometry/outward_rounding.h"
 #include "collision/gpu/proofs/proof_names.h"
+#include "gpu_planning_scene/error.h"
 
 // Only the form changes: numbers and thresholds are those of the lane scene, which was made with the rounding errors of
 // the device.
@@ -97,12 +97,15 @@ class Writer
           static_cast<std::uint32_t>(table.cells[i]) << TABLE_CELL_BITS * (i % TABLE_CELLS_A_WORD);
   }
 
-  /// The instances of attached objects follow those of the links.
+  /// The instances of attached objects follow those of the links. The shader relies on it.
   std::uint32_t firstAttached() const
   {
     const std::vector<std::uint32_t>& centers = scene_.linkCenters();
-    return static_cast<std::uint32_t>(std::lower_bound(centers.begin(), centers.end(), model_.instances.count) -
-                                      centers.begin());
+    const auto end = std::lower_bound(centers.begin(), centers.end(), model_.instances.count);
+    const auto count = static_cast<std::uint32_t>(end - centers.begin());
+    if (count > 0 && *(end - 1) != count - 1)
+      throw Error("a shape of a link follows one of an attached object");
+    return count;
   }
 
   /// The centres that the robot's shader does not place, sorted by their frames.
@@ -250,12 +253,13 @@ class Writer
   std::uint32_t addInstances()
   {
     const std::uint32_t first = begin();
+    const std::vector<int> places = placesOfFrames(model_);
     for (std::uint32_t i = 0; i < model_.instances.count; ++i)
     {
       const lanes::Instance& instance = model_.instances[i];
       const lanes::Box& box = instance.box;
-      texels_.push_back(
-          {static_cast<std::uint32_t>(placeOf(model_, instance.frame)), instance.same_centers ? 1U : 0U, 0, 0});
+      texels_.push_back({static_cast<std::uint32_t>(places[static_cast<std::size_t>(instance.frame)]),
+                         instance.same_centers ? 1U : 0U, 0, 0});
       for (int axis = 0; axis < 3; ++axis)
         texels_.push_back(numbers(box.axes[axis][0], box.axes[axis][1], box.axes[axis][2], box.half[axis]));
       texels_.push_back(numbers(box.center[0], box.center[1], box.center[2], 0.0F));

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "collision/filter/lanes/lane_scene.h"
-#include "collision/problem/collision_problem.h"
 #include "shader_constants.h"
 
 namespace gpu_planning_scene::core
