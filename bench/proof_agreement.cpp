@@ -48,7 +48,7 @@ std::unique_ptr<StateChecker> makeChecker(const std::shared_ptr<const PlanningSc
     return std::make_unique<CpuChecker>(scene);
   BatchCheckerOptions options;
   options.device = device;
-  options.cpu_below = 0;
+  options.device_only = true;
   return std::make_unique<BatchChecker>(scene, options);
 }
 

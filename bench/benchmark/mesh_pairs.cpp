@@ -39,7 +39,7 @@ Collide onGpu(const Shape& a, const Shape& b, const MethodInfo& info, const Sett
   BatchCheckerOptions options;
   options.device = settings.method.device;
   options.traversal = traversalFromName(info.name.substr(std::string("ours_").size()));
-  options.cpu_below = 0;
+  options.device_only = true;
   auto checker = std::make_shared<MeshPairChecker>(a, b, options);
   return [checker](const std::vector<Isometry3d>& poses) { return checker->collide(poses); };
 }

@@ -137,13 +137,11 @@ double ratioTo(const char* name, const Run& run, const std::vector<Run>& runs)
   return median(ratios);
 }
 
-/// Empty for a method without this choice.
-Cell cpuBelow(Method& method)
+/// Empty for a method in which devices and cores do not work together.
+Cell deviceShare(Method& method)
 {
-  const std::optional<std::size_t> below = method.cpuBelow();
-  if (!below)
-    return "";
-  return *below == std::numeric_limits<std::size_t>::max() ? Cell("all") : Cell(*below);
+  const std::optional<double> share = method.deviceShare();
+  return share ? Cell(*share) : Cell("");
 }
 
 class Tables
@@ -171,7 +169,7 @@ class Tables
                    "cpu_us_a_state",
                    "undecided_share",
                    "of_fcl_ordered",
-                   "cpu_below",
+                   "device_share",
                    "node_visits_a_state",
                    "candidates_a_state",
                    "root_pairs_a_state",
@@ -210,7 +208,7 @@ class Tables
                      median(run.cpu),
                      static_cast<double>(run.undecided) / static_cast<double>(run.count),
                      ratioTo(kOrderedMethod, run, runs),
-                     cpuBelow(*run.method),
+                     deviceShare(*run.method),
                      work.node_visits,
                      work.candidates,
                      work.root_pairs,

@@ -183,8 +183,8 @@ void run(std::size_t count, double seconds)
       loader.createUniqueInstance("gpu_planning_scene/PlannerManager");
   if (!manager->initialize(robot, "moveit_planning"))
     throw std::runtime_error("the planner cannot be initialised");
-  core::CheckerPool pool(core::makeResilientCheckers(core::BatchCheckerOptions(), {}, core::openChecker,
-                                                     [](const std::string& warning) { std::cerr << warning << '\n'; }));
+  core::CheckerPool pool(core::makeCheckers(core::BatchCheckerOptions(), core::openGpuDevice,
+                                            [](const std::string& warning) { std::cerr << warning << '\n'; }));
   Times through_moveit;
   Times alone;
   PathCheck check;

@@ -62,8 +62,8 @@ std::shared_ptr<StateChecker> ProblemChecker::in(const PlanningProblem& problem)
   {
     BatchCheckerOptions options;
     options.device = device_;
-    checker_ = openWithFallback(problem.scene, options,
-                                [](const std::string& warning) { std::cerr << "warning: " << warning << std::endl; });
+    checker_ = openChecker(problem.scene, options,
+                           [](const std::string& warning) { std::cerr << "warning: " << warning << std::endl; });
     std::cout << "device: " << checker_->deviceName() << std::endl;
   }
   std::vector<double> rows;

@@ -5,10 +5,6 @@
 
 namespace gpu_planning_scene::core
 {
-/// The most states of a slice of a long batch. The host works on one part while a device works on another, but only
-/// within a slice. So a slice has several of the largest parts (BatchCheckerOptions::max_batch).
-constexpr std::size_t kLargestSlice = 524288;
-
 /// Adapts the number of states in a batch, so that a batch takes about a given time. Short batches keep the device
 /// available to others, and a call can be stopped between two batches. Own method: doubles the number while batches are
 /// short, and computes it from the measured rate after a batch that took too long.

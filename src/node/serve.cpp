@@ -50,7 +50,6 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   const ServiceOptions options = serviceOptionsFromParameters(own);
   const CheckServerOptions server_options = serverOptionsFromParameters(own);
   const BatchCheckerOptions checker_options = checkerOptionsFromParameters(own);
-  const ResilientOptions resilience = resilienceFromParameters(own);
   const SceneLimits limits = sceneLimitsFromParameters(own);
   const PlanServiceOptions plan_options = planOptionsFromParameters(own);
   KinematicsOptions kinematics_options = kinematicsOptionsFromParameters(own);
@@ -75,8 +74,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   Diagnostics diagnostics;
   SceneStore store(std::move(scene), defaults, limits, [&base](std::int64_t stamp) { return base.at(stamp); });
   known = &store;
-  const CheckServer::MakeChecker make_checker = diagnostics.watched(makeResilientCheckers(
-      checker_options, resilience, open_device, [](const std::string& warning) { ROS_WARN_STREAM(warning); }));
+  const CheckServer::MakeChecker make_checker = diagnostics.watched(
+      makeCheckers(checker_options, open_device, [](const std::string& warning) { ROS_WARN_STREAM(warning); }));
   // A CPU checks few states as fast as a device, on the thread of the caller, and its checker needs no memory of a
   // device.
   const CheckServer::MakeChecker make_cpu_checker = [&checker_options](std::shared_ptr<const PlanningScene> its_scene)

@@ -22,7 +22,6 @@ CheckServerOptions options()
   options.max_waiting_requests = 5;
   options.max_waiting_states = 200;
   options.max_states = 100;
-  options.max_batch_states = 3 * kSmall;
   return options;
 }
 

@@ -31,7 +31,7 @@ std::unique_ptr<BatchChecker> batchChecker(const TestScene& scene, Traversal tra
   BatchCheckerOptions options;
   options.device = device;
   options.traversal = traversal;
-  options.cpu_below = 0;
+  options.device_only = true;
   return std::make_unique<BatchChecker>(scene.scene, options);
 }
 

@@ -5,22 +5,12 @@
 #include <utility>
 
 #include "collision/exact/sampled_collisions.h"
-#include "collision/parallel_for.h"
 #include "collision/problem/state_validation.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kStatesPerChunk = 32;
-
-// A large batch is cut into slices, so that its later states profit from proofs that are made in the meantime.
-constexpr std::size_t kStatesPerSlice = 16'384;
-
-// Checking this many states takes less time than starting threads. The calling thread also keeps its learned order of
-// checks.
-constexpr std::size_t kFewStates = 256;
-
 // Loading proofs from disk takes milliseconds of a core. They are loaded after a batch of more states than the first
 // number, or after more checked states than the second number.
 constexpr std::size_t kBatchBeforeCachedProofs = 64;
@@ -31,49 +21,6 @@ constexpr std::size_t kStatesBeforeCachedProofs = 1000;
 // pay for it.
 constexpr std::size_t kStatesBeforeLanes = 16;
 }  // namespace
-
-/// The work space of one check. Its end gives the work space back, also after an exception.
-class CpuScene::ScratchLoan
-{
- public:
-  explicit ScratchLoan(std::mutex& mutex) : mutex_(mutex) {}
-  ~ScratchLoan()
-  {
-    if (!scratch_)
-      return;
-    const std::lock_guard<std::mutex> lock(mutex_);
-    giveBack();
-  }
-  ScratchLoan(const ScratchLoan&) = delete;
-  ScratchLoan& operator=(const ScratchLoan&) = delete;
-
-  /// The caller holds the mutex.
-  void take(Group& group, const RobotModel& robot)
-  {
-    group_ = &group;
-    if (group.scratches.empty())
-    {
-      group.scratches.reserve(++group.scratch_count);  // so that giving it back needs no memory
-      scratch_ = std::make_unique<Scratch>(group.decisions);
-      scratch_->poses.resize(robot.links().size());
-    }
-    else
-    {
-      scratch_ = std::move(group.scratches.back());
-      group.scratches.pop_back();
-    }
-  }
-
-  /// The caller holds the mutex.
-  void giveBack() { group_->scratches.push_back(std::move(scratch_)); }
-
-  Scratch& operator*() const { return *scratch_; }
-
- private:
-  std::mutex& mutex_;
-  Group* group_ = nullptr;
-  std::unique_ptr<Scratch> scratch_;
-};
 
 CpuScene::CpuScene(const CheckerOptions& options) : options_(options), maker_(options) {}
 
@@ -143,16 +90,6 @@ void CpuScene::prepare(Group& group)
     group.lanes = std::make_unique<LaneChecker>(scene_->robot, group.problem, forest_->forest(), *group.within);
 }
 
-void CpuScene::prepareOutside(const std::string& name, Group& group)
-{
-  if (group.outside)
-    return;
-  CheckerOptions options = options_;
-  options.reductions.reach = false;
-  const auto problem = std::make_shared<const CollisionProblem>(ProblemMaker(options).make(*scene_, name, nullptr));
-  group.outside = forest_outside_.traversalOf(problem);
-}
-
 ProofStage CpuScene::proofStage(Group& group) const
 {
   if (!group.lanes)
@@ -173,18 +110,25 @@ ProofStage CpuScene::proofStage(const std::string& name)
   return proofStage(group);
 }
 
-std::shared_ptr<const RobotProofs> CpuScene::proofs(const std::string& name)
+std::shared_ptr<const LaneScene> CpuScene::deviceProofs(const std::string& name)
 {
   if (proofStage(name) == ProofStage::None)
     return nullptr;
   const std::lock_guard<std::mutex> lock(mutex_);
-  return groupOf(name).lanes->proofs();
+  Group& group = groupOf(name);
+  if (const std::shared_ptr<const RobotProofs> proofs = group.lanes->proofs(); proofs != group.device_proofs)
+  {
+    group.device_scene = std::make_shared<const LaneScene>(*scene_->robot, *group.problem, *forest_->forest(), proofs,
+                                                           lanes::kDeviceRounding);
+    group.device_proofs = proofs;
+  }
+  return group.device_scene;
 }
 
-void CpuScene::countStates(std::size_t count, const std::string& name)
+void CpuScene::countBatch(std::size_t count, std::size_t by_devices, const std::string& name)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  checked_ += count;
+  checked_ += by_devices;
   loadProofs(groupOf(name), count);
 }
 
@@ -194,48 +138,6 @@ void CpuScene::loadProofs(Group& group, std::size_t count) const
   if (group.lanes && !group.cached_proofs && checked_ <= kStatesBeforeProofs &&
       (count > kBatchBeforeCachedProofs || checked_ > kStatesBeforeCachedProofs))
     group.cached_proofs = loadProofsInBackground(scene_->robot, group.problem, forest_->forest());
-}
-
-void CpuScene::checkRow(const double* state, std::size_t row, const Group& group, const Margins* margins,
-                        Scratch& scratch, BatchResult& result) const
-{
-  if (margins && margins->within[row] == 0)
-  {
-    result.valid[row] = 0;
-    return;
-  }
-  scene_->robot->linkPoses(state, scratch.poses.data());
-  const Eigen::Isometry3d* const poses = scratch.poses.data();
-  const auto pair = margins ? group.within->firstCollision(poses, scratch.near, margins->of(row))
-                    : isValidFor(*group.problem, state) ? group.within->firstCollision(poses, scratch.within)
-                                                        : group.outside->firstCollision(poses, scratch.outside);
-  if (pair)
-  {
-    result.valid[row] = 0;
-    result.colliding[row] = *pair;
-  }
-}
-
-/// Checks states begin to end - 1. `by_lanes`: the proofs of the lane checker are ready.
-void CpuScene::checkBlock(const double* states, std::size_t begin, std::size_t end, const Group& group,
-                          const Margins* margins, bool by_lanes, Scratch& scratch, BatchResult& result) const
-{
-  const std::size_t width = scene_->robot->variables().size();
-  bool is_taken = by_lanes && end - begin > 1;
-  for (std::size_t i = begin; i < end && is_taken; ++i)
-    is_taken = (margins ? margins->within[i] != 0 : isValidFor(*group.problem, states + i * width)) &&
-               LaneChecker::takes(states + i * width, margins ? scratch.near_lanes : scratch.lanes);
-  if (is_taken && margins)
-  {
-    std::array<const double*, lanes::kLanes> rows;
-    for (std::size_t i = begin; i < end; ++i)
-      rows[i - begin] = margins->of(i);
-    return group.lanes->check(states + begin * width, end - begin, begin, rows.data(), scratch.near_lanes, result);
-  }
-  if (is_taken)
-    return group.lanes->check(states + begin * width, end - begin, begin, nullptr, scratch.lanes, result);
-  for (std::size_t i = begin; i < end; ++i)
-    checkRow(states + i * width, i, group, margins, scratch, result);
 }
 
 Margins CpuScene::margins(const JointNeighbourhood& around, const double* states, std::size_t count,
@@ -253,9 +155,10 @@ Margins CpuScene::margins(const JointNeighbourhood& around, const double* states
   return bounds->margins(around, states, count);
 }
 
-/// Counts the states of a slice. Returns true if the lane checker takes it; its proofs are then ready in the scratch.
-bool CpuScene::countSlice(std::size_t count, Group& group, Scratch& scratch, bool has_margins)
+/// Counts the states of a part. Returns true if the lane checker takes it; its proofs are then ready in the scratch.
+bool CpuScene::countPart(std::size_t count, Group& group, Scratch& scratch, bool has_margins)
 {
+  const std::lock_guard<std::mutex> lock(mutex_);
   checked_ += count;
   group.checked += count;
   // A single state does not go to the lanes.
@@ -265,65 +168,101 @@ bool CpuScene::countSlice(std::size_t count, Group& group, Scratch& scratch, boo
   return true;
 }
 
-/// Whether the problem is valid for all states.
-bool CpuScene::areValid(const double* states, std::size_t count, const CollisionProblem& problem) const
+CpuScene::Core::Core(CpuScene& scene, const std::string& group) : scene_(scene), name_(group)
 {
-  const std::size_t width = scene_->robot->variables().size();
-  for (std::size_t i = 0; i < count; ++i)
-    if (!isValidFor(problem, states + i * width))
-      return false;
-  return true;
+  const std::lock_guard<std::mutex> lock(scene_.mutex_);
+  group_ = &scene_.groupOf(group);
+  if (group_->problem->always_colliding)
+    return;
+  scene_.prepare(*group_);
+  if (group_->scratches.empty())
+  {
+    group_->scratches.reserve(++group_->scratch_count);  // so that giving it back needs no memory
+    scratch_ = std::make_unique<Scratch>(group_->decisions);
+    scratch_->poses.resize(scene_.scene_->robot->links().size());
+  }
+  else
+  {
+    scratch_ = std::move(group_->scratches.back());
+    group_->scratches.pop_back();
+  }
 }
 
-void CpuScene::check(const double* states, std::size_t count, const std::string& name, BatchResult& result,
-                     const Margins* margins)
+CpuScene::Core::~Core()
 {
-  ScratchLoan loan(mutex_);
-  Group* used = nullptr;
-  bool by_lanes = false;
+  if (!scratch_)
+    return;
+  const std::lock_guard<std::mutex> lock(scene_.mutex_);
+  group_->scratches.push_back(std::move(scratch_));
+}
+
+void CpuScene::Core::check(const double* states, const StateRange& part, const Margins* margins, BatchResult& result)
+{
+  if (const auto& colliding = group_->problem->always_colliding)
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    Group& group = groupOf(name);
-    if (group.problem->always_colliding)
-    {
-      result.valid.assign(count, 0);
-      result.colliding.assign(count, *group.problem->always_colliding);
-      return;
-    }
-    prepare(group);
-    loan.take(group, *scene_->robot);
-    by_lanes = countSlice(std::min(kStatesPerSlice, count), group, *loan, margins != nullptr);
-    used = &group;
+    std::fill_n(&result.valid[part.begin], part.count, 0);
+    std::fill_n(&result.colliding[part.begin], part.count, *colliding);
+    return;
   }
-  if (!margins && !areValid(states, count, *used->problem))
+  const bool by_lanes = scene_.countPart(part.count, *group_, *scratch_, margins != nullptr);
+  for (std::size_t i = part.begin; i < part.end(); i += lanes::kLanes)
+    checkBlock(states, i, std::min<std::size_t>(i + lanes::kLanes, part.end()), margins, by_lanes, result);
+}
+
+/// Checks states begin to end - 1. `by_lanes`: the proofs of the lane checker are ready.
+void CpuScene::Core::checkBlock(const double* states, std::size_t begin, std::size_t end, const Margins* margins,
+                                bool by_lanes, BatchResult& result)
+{
+  const std::size_t width = scene_.scene_->robot->variables().size();
+  LaneChecker::Scratch& lane_scratch = margins ? scratch_->near_lanes : scratch_->lanes;
+  bool is_taken = by_lanes && end - begin > 1;
+  for (std::size_t i = begin; i < end && is_taken; ++i)
+    is_taken = (margins ? margins->within[i] != 0 : isValidFor(*group_->problem, states + i * width)) &&
+               LaneChecker::takes(states + i * width, lane_scratch);
+  if (!is_taken)
   {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    prepareOutside(name, *used);
+    for (std::size_t i = begin; i < end; ++i)
+      checkRow(states + i * width, i, margins, result);
+    return;
   }
-  result.valid.assign(count, 1);
-  result.colliding.assign(count, kNoPair);
-  const auto check_range = [&](std::size_t begin, std::size_t end, Scratch& scratch)
+  std::array<const double*, lanes::kLanes> rows;
+  for (std::size_t i = begin; i < end && margins; ++i)
+    rows[i - begin] = margins->of(i);
+  group_->lanes->check(states + begin * width, end - begin, begin, margins ? rows.data() : nullptr, lane_scratch,
+                       result);
+}
+
+void CpuScene::Core::checkRow(const double* state, std::size_t row, const Margins* margins, BatchResult& result)
+{
+  if (margins && margins->within[row] == 0)
   {
-    for (std::size_t i = begin; i < end; i += lanes::kLanes)
-      checkBlock(states, i, std::min<std::size_t>(i + lanes::kLanes, end), *used, margins, by_lanes, scratch, result);
-  };
-  for (std::size_t begin = 0; begin < count; begin += kStatesPerSlice)
-  {
-    const std::size_t size = std::min(kStatesPerSlice, count - begin);
-    if (begin != 0)
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      by_lanes = countSlice(size, *used, *loan, margins != nullptr);
-    }
-    if (size <= kFewStates)
-      check_range(begin, begin + size, *loan);
-    else
-      parallelFor(size, kStatesPerChunk,
-                  [&, scratch = *loan](std::size_t first, std::size_t last) mutable
-                  { check_range(begin + first, begin + last, scratch); });
+    result.valid[row] = 0;
+    return;
   }
-  const std::lock_guard<std::mutex> lock(mutex_);
-  loadProofs(*used, count);
-  loan.giveBack();
+  scene_.scene_->robot->linkPoses(state, scratch_->poses.data());
+  const Eigen::Isometry3d* const poses = scratch_->poses.data();
+  const auto pair = margins ? group_->within->firstCollision(poses, scratch_->near, margins->of(row))
+                    : isValidFor(*group_->problem, state) ? group_->within->firstCollision(poses, scratch_->within)
+                                                          : outside().firstCollision(poses, scratch_->outside);
+  if (pair)
+  {
+    result.valid[row] = 0;
+    result.colliding[row] = *pair;
+  }
+}
+
+/// The traversal of all pairs, for states for which the problem is not valid.
+const CpuTraversal& CpuScene::Core::outside()
+{
+  const std::lock_guard<std::mutex> lock(scene_.mutex_);
+  if (!group_->outside)
+  {
+    CheckerOptions options = scene_.options_;
+    options.reductions.reach = false;
+    const auto problem =
+        std::make_shared<const CollisionProblem>(ProblemMaker(options).make(*scene_.scene_, name_, nullptr));
+    group_->outside = scene_.forest_outside_.traversalOf(problem);
+  }
+  return *group_->outside;
 }
 }  // namespace gpu_planning_scene::core

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "collision/batch/state_range.h"
 #include "collision/bounds/displacement_bounds.h"
 #include "collision/bounds/problem_maker.h"
 #include "collision/exact/cpu_traversal.h"
@@ -20,7 +21,7 @@ constexpr std::size_t kStatesBeforeProofs = 20'000;
 
 /// The collision problems of a scene, one per group, and their checks on the CPU. A problem is made when it is first
 /// needed. Trees are kept for the next scene with the same shapes. Thread-safe, and checks run side by side. Exception:
-/// no other call may run during setScene.
+/// no other call may run, and no Core may exist, during setScene.
 class CpuScene
 {
  public:
@@ -35,9 +36,6 @@ class CpuScene
   SceneReport report(const std::string& group);
   const std::shared_ptr<const CollisionProblem>& problem(const std::string& group);
 
-  /// The trees of the CPU's traversals.
-  const std::shared_ptr<ForestCache>& trees() const { return forest_; }
-
   /// Prepares the group, so that the first call of `check` need not do so.
   void prepare(const std::string& group);
 
@@ -45,20 +43,48 @@ class CpuScene
   /// checked.
   ProofStage proofStage(const std::string& group);
 
-  /// The proofs of proofStage; null: none.
-  std::shared_ptr<const RobotProofs> proofs(const std::string& group);
+  /// The scene of the group for devices, with the newest proofs; null: there are no proofs.
+  std::shared_ptr<const LaneScene> deviceProofs(const std::string& group);
 
-  /// Counts states of the group that were checked elsewhere, so that proofs are made for a robot in use.
-  void countStates(std::size_t count, const std::string& group);
+  /// Counts a batch of which devices answered `by_devices` states, so that proofs are loaded or made for a robot in
+  /// use.
+  void countBatch(std::size_t count, std::size_t by_devices, const std::string& group);
 
   /// The margins of the group's pairs for `count` states (rows of the robot's variables). Throws Error if `around` does
   /// not fit the states.
   Margins margins(const JointNeighbourhood& around, const double* states, std::size_t count, const std::string& group);
 
-  /// Checks `count` states on all cores and fills `valid` and `colliding`. All states are allowed, also those for which
-  /// `problem` is not valid. `margins`: margins of the group for these states; null: none.
-  void check(const double* states, std::size_t count, const std::string& group, BatchResult& result,
-             const Margins* margins = nullptr);
+ private:
+  struct Scratch;
+  struct Group;
+
+ public:
+  /// Checks states of a group on the thread of its user, with a work space that learns. Others can be used at the same
+  /// time, on other threads.
+  class Core
+  {
+   public:
+    /// Prepares the group.
+    Core(CpuScene& scene, const std::string& group);
+    ~Core();
+    Core(const Core&) = delete;
+    Core& operator=(const Core&) = delete;
+
+    /// Sets the rows of `part` in the result, which must be initialised as free. `states`, `margins`: of the whole
+    /// batch. All states are allowed, also those for which `problem` is not valid.
+    void check(const double* states, const StateRange& part, const Margins* margins, BatchResult& result);
+
+   private:
+    void checkBlock(const double* states, std::size_t begin, std::size_t end, const Margins* margins, bool by_lanes,
+                    BatchResult& result);
+    void checkRow(const double* state, std::size_t row, const Margins* margins, BatchResult& result);
+    const CpuTraversal& outside();
+
+    CpuScene& scene_;
+    const std::string name_;
+    Group* group_ = nullptr;
+    std::unique_ptr<Scratch> scratch_;
+  };
 
  private:
   /// Work space of one thread, including the learned order of checks.
@@ -82,31 +108,24 @@ class CpuScene
     SceneReport report;
     bool is_sampled = false;  // the report has the pairs of collidingInSamples
     std::shared_ptr<const CollisionProblem> problem;
-    std::unique_ptr<const CpuTraversal> within;   // traversal of this problem
-    std::shared_ptr<ProofJob> cached_proofs;      // null: not requested
-    std::unique_ptr<LaneChecker> lanes;           // for states for which the problem is valid; null: not used
-    std::unique_ptr<const CpuTraversal> outside;  // all pairs, for states for which the problem is not valid
+    std::unique_ptr<const CpuTraversal> within;        // traversal of this problem
+    std::shared_ptr<ProofJob> cached_proofs;           // null: not requested
+    std::unique_ptr<LaneChecker> lanes;                // for states for which the problem is valid; null: not used
+    std::shared_ptr<const RobotProofs> device_proofs;  // of device_scene
+    std::shared_ptr<const LaneScene> device_scene;     // null: not made
+    std::unique_ptr<const CpuTraversal> outside;       // all pairs, for states for which the problem is not valid
     std::unique_ptr<const DisplacementBounds> displacements;
     std::uint64_t checked = 0;  // states
     std::shared_ptr<DecisionTotals> decisions = std::make_shared<DecisionTotals>();
     std::vector<std::unique_ptr<Scratch>> scratches;  // that no check uses now; the last one was used last
     std::size_t scratch_count = 0;                    // with those that checks use
   };
-  class ScratchLoan;
-
   // The caller of these functions holds mutex_.
   Group& groupOf(const std::string& group);
   void prepare(Group& group);
   ProofStage proofStage(Group& group) const;
   void loadProofs(Group& group, std::size_t count) const;
-  void prepareOutside(const std::string& name, Group& group);
-  bool countSlice(std::size_t count, Group& group, Scratch& scratch, bool has_margins);
-
-  bool areValid(const double* states, std::size_t count, const CollisionProblem& problem) const;
-  void checkBlock(const double* states, std::size_t begin, std::size_t end, const Group& group, const Margins* margins,
-                  bool by_lanes, Scratch& scratch, BatchResult& result) const;
-  void checkRow(const double* state, std::size_t row, const Group& group, const Margins* margins, Scratch& scratch,
-                BatchResult& result) const;
+  bool countPart(std::size_t count, Group& group, Scratch& scratch, bool has_margins);
 
   CheckerOptions options_;
   ProblemMaker maker_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <random>
 
 #include "collision/gpu/kinematics_shader.h"
@@ -15,11 +14,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kLargestShaderAngle = 1048576.0;  // 2^20, see shaders/problem/kinematics.glsl
-
-// A device may replace denormal doubles by 0, also the reciprocal of a very large number.
-constexpr double kLargestQuaternion = 1e150;
-
 constexpr std::size_t kTestedStates = 64;
 // The error of the double computation, relative to the distance from the origin (docs/error_bounds.md), with room.
 constexpr double kDoubleError = 1e-11;
@@ -46,36 +40,12 @@ Texel twoDoubles(double first, double second)
   std::memcpy(texel.data(), values.data(), sizeof(texel));
   return texel;
 }
-
-/// The largest magnitude of each variable that gives no angle beyond the range of the shader's sine.
-std::vector<double> largestOfVariables(const RobotModel& robot)
-{
-  std::vector<double> largest(robot.variables().size(), std::numeric_limits<double>::max());
-  for (const Joint& joint : robot.joints())
-  {
-    if (joint.first_variable < 0)
-      continue;
-    const bool turns = joint.type == JointType::Revolute || joint.type == JointType::Continuous;
-    const bool planar = joint.type == JointType::Planar;
-    if (!turns && !planar)
-      continue;
-    double& least = largest[static_cast<std::size_t>(joint.first_variable) + (planar ? 2U : 0U)];
-    const double multiplier = planar ? 1.0 : std::max(std::abs(joint.multiplier), 1e-300);
-    const double offset = planar ? 0.0 : std::abs(joint.offset);
-    least = std::min(least, (kLargestShaderAngle - offset) / multiplier * (1.0 - 1e-9));
-  }
-  return largest;
-}
 }  // namespace
 
 GpuKinematics::GpuKinematics(const std::string& shader_folder, std::shared_ptr<const RobotModel> robot)
   : robot_(std::move(robot)),
-    program_(Program::fromText(shader_folder, "kinematics of " + robot_->name(), kinematicsShader(*robot_))),
-    largest_(largestOfVariables(*robot_))
+    program_(Program::fromText(shader_folder, "kinematics of " + robot_->name(), kinematicsShader(*robot_)))
 {
-  for (const Joint& joint : robot_->joints())
-    if (joint.type == JointType::Floating)
-      quaternions_.push_back(static_cast<std::size_t>(joint.first_variable) + 3);
 }
 
 std::string GpuKinematics::findFault()
@@ -85,7 +55,7 @@ std::string GpuKinematics::findFault()
   for (std::size_t link = 0; link < links; ++link)
     problem.robot.push_back(
         {0, static_cast<std::int32_t>(link), static_cast<std::int32_t>(link), Eigen::Isometry3d::Identity()});
-  const std::size_t width = largest_.size();
+  const std::size_t width = boundVariables();
   std::vector<double> states(kTestedStates * width);
   std::mt19937_64 generator(20033);
   for (std::size_t i = 0; i < kTestedStates; ++i)
@@ -144,28 +114,15 @@ void GpuKinematics::setInstances(const CollisionProblem& problem)
   link_shapes_.buffer().write(texels);
 }
 
-bool GpuKinematics::canPlace(const double* state) const
-{
-  for (std::size_t i = 0; i < largest_.size(); ++i)
-    if (!(std::abs(state[i]) <= largest_[i]))
-      return false;
-  return std::all_of(quaternions_.begin(), quaternions_.end(),
-                     [state](std::size_t first)
-                     {
-                       const double largest = Eigen::Map<const Eigen::Vector4d>(state + first).cwiseAbs().maxCoeff();
-                       return largest == 0.0 || (largest >= 1.0 / kLargestQuaternion && largest <= kLargestQuaternion);
-                     });
-}
-
 std::size_t GpuKinematics::maxStates() const
 {
   const std::size_t numbers = TexelBuffer::maxBytes() / sizeof(double) - 1;  // see begin()
-  return std::max<std::size_t>(1, numbers / std::max<std::size_t>(1, largest_.size()));
+  return std::max<std::size_t>(1, numbers / std::max<std::size_t>(1, boundVariables()));
 }
 
 void GpuKinematics::begin(std::size_t begin, std::size_t count)
 {
-  const std::size_t width = largest_.size();
+  const std::size_t width = boundVariables();
   TexelBuffer& upload = uploads_[next_upload_];
   next_upload_ = 1 - next_upload_;
   upload.reserve((count * width + 1) * sizeof(double));

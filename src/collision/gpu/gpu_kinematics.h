@@ -3,7 +3,6 @@
 #include <array>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "collision/gpu/pose_source.h"
 #include "collision/problem/collision_problem.h"
@@ -21,36 +20,26 @@ class GpuKinematics : public PoseSource
   const std::shared_ptr<const RobotModel>& robot() const { return robot_; }
 
   /// Compares the poses of all links in random states with those of the robot model. Returns one line that names the
-  /// first link that is elsewhere, or an empty text. So a driver that
-  /// compiles the robot's shader wrongly is found out. The poses are floats: smaller differences than about 1e-8 are
-  /// not seen. Changes the instances and the states.
+  /// first link that is elsewhere, or an empty text. So a driver that compiles the robot's shader wrongly is found out.
+  /// The poses are floats: smaller differences than about 1e-8 are not seen. Changes the instances and the states.
   std::string findFault();
 
   /// Sets the shape instances to place: the instances of `problem.robot`.
   void setInstances(const CollisionProblem& problem);
 
-  /// The largest magnitude of each variable for which canPlace is true. Empty if the robot has quaternions, which need
-  /// a test of their own.
-  std::vector<double> largestValues() const { return quaternions_.empty() ? largest_ : std::vector<double>(); }
-
-  /// Whether all angles of a state are within the range of the shader's sine and cosine.
-  bool canPlace(const double* state) const;
-
-  /// Sets the batch: row-major rows of the robot's variables. canPlace must be true for each row.
+  /// Sets the states: row-major rows of the robot's variables, each in PlaceableStates.
   void setStates(const double* states) { states_ = states; }
   void begin(std::size_t begin, std::size_t count) override;
   void place(TexelBuffer& poses) override;
   void placeOpenStates(TexelBuffer& poses, const BatchLists& lists) override;
   std::size_t maxStates() const override;
-  std::size_t boundVariables() const override { return largest_.size(); }
+  std::size_t boundVariables() const override { return robot_->variables().size(); }
 
  private:
   void bind(TexelBuffer& poses, bool listed);
 
   std::shared_ptr<const RobotModel> robot_;
   Program program_;
-  std::vector<double> largest_;           // largest magnitude of each variable for canPlace
-  std::vector<std::size_t> quaternions_;  // the first variables of the quaternions of floating joints
   const double* states_ = nullptr;
   std::size_t count_ = 0;  // states of the part
   // Two buffers, so that states are uploaded while the GPU works on the previous part.

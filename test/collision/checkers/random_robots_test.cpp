@@ -403,7 +403,7 @@ TEST_P(RandomRobots, HaveTheVerdictsOfTheCpuOnTheGpu)
   {
     BatchCheckerOptions options;
     options.traversal = traversal;
-    options.cpu_below = 0;
+    options.device_only = true;
     options.max_batch = below(2) == 0 ? 16384 : 64;
     EXPECT_EQ(BatchChecker(made, options).check(states.data(), kStatesOfARobot).valid, expected)
         << "seed " << GetParam() << ", " << made->robot->links().size() << " links, " << made->objects.size()
@@ -477,7 +477,7 @@ TEST_P(RandomRobots, AreAsFreeAroundAStateOnTheGpuAsOnTheCpu)
   {
     BatchCheckerOptions options;
     options.traversal = traversal;
-    options.cpu_below = 0;
+    options.device_only = true;
     options.max_batch = below(2) == 0 ? 16384 : 64;
     BatchChecker checker(made, options);
     const std::vector<std::uint8_t> plain = checker.check(states.data(), kStatesOfARobot).valid;

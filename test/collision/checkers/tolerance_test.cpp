@@ -34,7 +34,7 @@ std::unique_ptr<StateChecker> checkerWith(double tolerance, const std::string& m
   if (method == "cpu")
     return std::make_unique<CpuChecker>(scene, options);
   options.traversal = traversalFromName(method);
-  options.cpu_below = 0;
+  options.device_only = true;
   return std::make_unique<BatchChecker>(scene, options);
 }
 

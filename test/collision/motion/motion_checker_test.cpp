@@ -542,7 +542,7 @@ TEST_P(RealMotions, ProvenPartsAreFreeAtTenTimesTheResolution)
   const std::vector<MotionVerdict> verdicts = checker.check(starts.data(), ends.data(), count, MotionQuery::LastValid);
   const std::vector<MotionVerdict> without = checker.check(starts.data(), ends.data(), count);
   BatchCheckerOptions all_on_gpu;
-  all_on_gpu.cpu_below = 0;
+  all_on_gpu.device_only = true;
   const auto gpu = std::make_shared<BatchChecker>(test.scene, all_on_gpu);
   const std::vector<MotionVerdict> on_gpu =
       MotionChecker(gpu, test.scene->robot, "", options).check(starts.data(), ends.data(), count);

@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/checkers/fallback_checker.h"
 #include "collision/checkers/open_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/device.h"
@@ -23,7 +22,7 @@ namespace
 {
 using Scene = std::shared_ptr<const PlanningScene>;
 
-class Fallback : public testing::Test
+class OpenChecker : public testing::Test
 {
  protected:
   /// The scene with one ball more.
@@ -41,9 +40,9 @@ class Fallback : public testing::Test
   {
     BatchCheckerOptions options;
     options.device = device;
-    options.cpu_below = 0;
+    options.device_only = true;
     options.shader_folder = shaders;
-    return openWithFallback(test_.scene, options, [this](const std::string& line) { warnings_.push_back(line); });
+    return openChecker(test_.scene, options, [this](const std::string& line) { warnings_.push_back(line); });
   }
 
   void expectRight(StateChecker& checker, const Scene& scene)
@@ -73,7 +72,7 @@ const std::vector<std::array<std::string, 4>> kFaults = {
     {"tree_build/layout_pairs.comp", "place(left, ", "if (mesh_count != 1u) place(left, ", "built wrong trees"},
 };
 
-TEST_F(Fallback, ADeviceThatBuildsWrongTreesAtASceneChangeIsReplacedByTheCpu)
+TEST_F(OpenChecker, ADeviceThatBuildsWrongTreesAtASceneChangeIsReplacedByTheCpu)
 {
   for (const auto& [file, text, by, error] : kFaults)
   {
@@ -88,12 +87,12 @@ TEST_F(Fallback, ADeviceThatBuildsWrongTreesAtASceneChangeIsReplacedByTheCpu)
     expectRight(*checker, changed);
     expectRight(*checker, changed);
     EXPECT_EQ(checker->deviceName(), "CPU");
-    expectWarning("the device has failed", error);
-    warnings_.clear();
+    EXPECT_EQ(checker->deviceWarning().rfind("the device has failed, so the CPU checks the states: ", 0), 0U);
+    EXPECT_NE(checker->deviceWarning().find(error), std::string::npos) << checker->deviceWarning();
   }
 }
 
-TEST_F(Fallback, ADeviceThatBuildsWrongTreesAtTheStartIsReplacedByTheCpu)
+TEST_F(OpenChecker, ADeviceThatBuildsWrongTreesAtTheStartIsReplacedByTheCpu)
 {
   const ShaderFolder shaders;
   shaders.replace("tree_build/gather_triangles.comp", "vertices[at + 2u]", "vertices[at]");
@@ -103,10 +102,10 @@ TEST_F(Fallback, ADeviceThatBuildsWrongTreesAtTheStartIsReplacedByTheCpu)
   checker->setScene(changed);
   expectRight(*checker, changed);
   EXPECT_EQ(checker->deviceName(), "CPU");
-  expectWarning("the device cannot be used", "built wrong trees");
+  expectWarning("no device can be used", "built wrong trees");
 }
 
-TEST_F(Fallback, ADeviceThatTheUserHasNamedIsNotReplaced)
+TEST_F(OpenChecker, ADeviceThatTheUserHasNamedIsNotReplaced)
 {
   const ShaderFolder shaders;
   shaders.replace("tree_build/gather_triangles.comp", "vertices[at + 2u]", "vertices[at]");
@@ -115,17 +114,17 @@ TEST_F(Fallback, ADeviceThatTheUserHasNamedIsNotReplaced)
   EXPECT_TRUE(warnings_.empty());
 }
 
-TEST_F(Fallback, AWrongInputIsAnErrorAndNoFaultOfTheDevice)
+TEST_F(OpenChecker, AWrongInputIsAnErrorAndNoFaultOfTheDevice)
 {
   BatchCheckerOptions options;
   const auto warn = [this](const std::string& line) { warnings_.push_back(line); };
   options.max_batch = 0;
-  EXPECT_NE(errorOf([&] { openWithFallback(test_.scene, options, warn); }).find("max_batch"), std::string::npos);
+  EXPECT_NE(errorOf([&] { openChecker(test_.scene, options, warn); }).find("max_batch"), std::string::npos);
   options = {};
   options.tolerance = -1.0;
-  EXPECT_NE(errorOf([&] { openWithFallback(test_.scene, options, warn); }).find("tolerance"), std::string::npos);
+  EXPECT_NE(errorOf([&] { openChecker(test_.scene, options, warn); }).find("tolerance"), std::string::npos);
   options = {};
-  const auto checker = openWithFallback(test_.scene, options, warn);
+  const auto checker = openChecker(test_.scene, options, warn);
   auto wrong = std::make_shared<PlanningScene>(*test_.scene);
   wrong->objects.at(0).pose.translation().x() = std::nan("");
   EXPECT_THROW(checker->setScene(wrong), Error);
@@ -133,58 +132,12 @@ TEST_F(Fallback, AWrongInputIsAnErrorAndNoFaultOfTheDevice)
   EXPECT_TRUE(warnings_.empty());
 }
 
-/// The CPU's checker as a device that is lost in chosen calls.
-class LostChecker : public StateChecker
+TEST(SelectedDevices, AreNamedWithPlusBetweenThem)
 {
- public:
-  LostChecker(Scene scene, std::vector<bool>& losses) : checker_(std::move(scene)), losses_(losses) {}
-  void setScene(Scene scene) override
-  {
-    mayBeLost();
-    checker_.setScene(std::move(scene));
-  }
-  BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const JointNeighbourhood* around) override
-  {
-    mayBeLost();
-    return checker_.check(states, count, group, around);
-  }
-  SceneReport report(const std::string& group) override { return checker_.report(group); }
-  std::string deviceName() const override { return "a device"; }
-
- private:
-  void mayBeLost()
-  {
-    if (losses_.empty())
-      return;
-    const bool is_lost = losses_.back();
-    losses_.pop_back();
-    if (is_lost)
-      throw DeviceLost("gone");
-  }
-
-  CpuChecker checker_;
-  std::vector<bool>& losses_;  // of the next calls, the next one last
-};
-
-TEST_F(Fallback, ALostDeviceIsOpenedAgainAndOnlyThenReplaced)
-{
-  std::vector<bool> losses;
-  FallbackChecker checker(
-      test_.scene, [&losses](const Scene& scene) { return std::make_unique<LostChecker>(scene, losses); }, {},
-      [this](const std::string& line) { warnings_.push_back(line); });
-  losses = {false, true};
-  expectRight(checker, test_.scene);
-  EXPECT_EQ(checker.deviceName(), "a device");
-  EXPECT_TRUE(warnings_.empty());
-  const Scene changed = changedScene();
-  losses = {false, true};
-  checker.setScene(changed);
-  EXPECT_EQ(checker.deviceName(), "a device");
-  losses = {true, true};
-  expectRight(checker, changed);
-  EXPECT_EQ(checker.deviceName(), "CPU");
-  expectWarning("the device has failed", "gone");
+  EXPECT_EQ(devicesOf("0"), std::vector<std::string>{"0"});
+  EXPECT_EQ(devicesOf("0+software"), (std::vector<std::string>{"0", "software"}));
+  for (const char* selection : {"", "0+", "+0", "0++1"})
+    EXPECT_NE(errorOf([&] { devicesOf(selection); }).find("empty part"), std::string::npos) << selection;
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -1,0 +1,117 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "collision/batch/state_range.h"
+#include "collision/bounds/displacement_bounds.h"
+#include "gpu_planning_scene/batch_checker_options.h"
+
+namespace gpu_planning_scene::core
+{
+/// A batch of valid states while cores and devices check it. It is cut here, and only here: each worker takes a part
+/// when it is free. The parts of cores are small and those of devices large. All parts become smaller towards the end,
+/// so that all workers end at about the same time. Each state is answered once, whoever takes it. Thread-safe.
+///
+/// A part whose device is lost goes back. If the batch has an owner, free cores overtake devices: they take states of
+/// the parts that devices still work on, from the end of a part, and the device's answers for these states are dropped.
+/// So nobody waits for a device that hangs.
+///
+/// Guided self-scheduling: C. Polychronopoulos, D. Kuck (1987).
+class Batch
+{
+ public:
+  /// `cores`: their number. `for_cores`: the states that only cores can check, ascending.
+  Batch(const StateBatch& asked, std::optional<Margins> margins, std::size_t cores,
+        const std::vector<std::size_t>& for_cores);
+
+  const double* states() const { return asked_.states; }
+  std::size_t count() const { return asked_.count; }
+  const Margins* margins() const { return margins_ ? &*margins_ : nullptr; }
+  bool hasOwner() const { return asked_.owner != nullptr; }
+  /// Workers write the answers of their parts. The states begin as free.
+  BatchResult& result() { return result_; }
+
+  // For cores.
+  /// Whether cores take the states that devices can check. At first, they do.
+  void letCoresHelp(bool help);
+  /// The next part, at most `most` states. An empty part: there is none now, but a device may bring more.
+  StateRange takeForCore(std::size_t most);
+  void answered(const StateRange& part);
+  /// Waits until there may be a part for a core, or until the batch has ended; at most until `time`.
+  void waitForCores(std::chrono::steady_clock::time_point time);
+  /// The number of states that cores can take now.
+  std::size_t availableForCores() const;
+
+  // For devices, which have numbers.
+  /// No part goes to a device that has not joined, or has left.
+  void join(std::size_t device);
+  /// Its parts go back, because it was lost.
+  void giveBack(std::size_t device);
+  /// Its parts go back. If no device is left, cores take all states.
+  void leave(std::size_t device);
+  /// The next part: at most `most` states, and at most `share` of the waiting states. An empty part: there is none.
+  StateRange takeForDevice(std::size_t device, std::size_t most, double share);
+  /// Must be called before a device writes the answers of a part. Returns the states that it may write.
+  StateRange beginAnswer(std::size_t device, const StateRange& part);
+  /// After beginAnswer: its states are answered, except for `undecided` ones, which cores then check.
+  void endAnswer(const StateRange& states, const std::vector<std::size_t>& undecided);
+  void add(const GpuWork& work);
+  GpuWork work() const;
+
+  /// The number of joined devices that have not left.
+  std::size_t devices() const;
+  std::size_t answeredCount() const;
+  std::size_t answeredByDevices() const;
+  /// Waits until no device is left.
+  void waitForDevices();
+  bool isComplete() const { return answeredCount() == count(); }
+  /// Ends the batch: no further part is taken, and no device writes answers. Waits for devices that are writing.
+  void close();
+  /// Closes the batch because of an error. The first error counts.
+  void fail(std::exception_ptr error);
+  bool isClosed() const;
+  /// The error of fail; null: none.
+  std::exception_ptr error() const;
+
+ private:
+  /// A part that a device works on. Cores have taken the states from `open_end` on.
+  struct DevicePart
+  {
+    std::size_t device;
+    StateRange range;
+    std::size_t open_end;
+  };
+
+  // The caller of these functions holds mutex_.
+  std::size_t available() const;
+  StateRange overtake(std::size_t most);
+  void returnParts(std::size_t device);
+
+  const StateBatch asked_;
+  const std::optional<Margins> margins_;
+  const std::size_t cores_;
+  BatchResult result_;
+
+  mutable std::mutex mutex_;  // guards the members below
+  std::condition_variable changed_;
+  std::vector<StateRange> waiting_;    // for anybody; the next one last
+  std::vector<StateRange> for_cores_;  // for cores only
+  std::size_t waiting_count_ = 0;      // states of waiting_
+  std::vector<DevicePart> at_devices_;
+  std::vector<std::size_t> joined_;
+  std::size_t answered_ = 0;
+  std::size_t answered_by_devices_ = 0;
+  std::size_t writing_ = 0;  // devices between beginAnswer and endAnswer
+  bool cores_help_ = true;
+  bool closed_ = false;
+  std::exception_ptr error_;
+  GpuWork work_;
+};
+}  // namespace gpu_planning_scene::core

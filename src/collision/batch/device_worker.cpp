@@ -1,0 +1,463 @@
+#include "collision/batch/device_worker.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <mutex>
+#include <sstream>
+#include <thread>
+#include <utility>
+#include <variant>
+
+#include <malloc.h>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+constexpr double kLongestLimit = 1e8;        // seconds; longer times would overflow the clock's type
+constexpr int kAttempts = 2;                 // for a batch or a scene, if the device is lost
+constexpr std::size_t kLeastForRate = 1024;  // states
+
+Clock::duration duration(double seconds)
+{
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, kLongestLimit)));
+}
+
+double secondsBetween(Clock::time_point from, Clock::time_point to)
+{
+  return std::chrono::duration<double>(to - from).count();
+}
+
+/// Trees are built within a call, so large scenes have more time.
+double millionTriangles(const CollisionProblem& problem)
+{
+  std::size_t triangles = 0;
+  for (const Tessellation& tessellation : problem.tessellations)
+    triangles += tessellation.mesh ? tessellation.mesh->triangles.size() : 0;
+  return 1e-6 * static_cast<double>(triangles);
+}
+}  // namespace
+
+/// The state that the thread and the worker share. The thread uses `device` alone, also to destroy it.
+struct DeviceWorker::Shared
+{
+  using Job = std::function<void(Shared&)>;
+
+  Shared(Open the_open, const DeviceLimits& the_limits) : open_device(std::move(the_open)), limits(the_limits) {}
+
+  void serve();
+  void prepare(const DeviceTask& task);
+  void checkParts(Batch& batch, const DeviceTask& task, std::size_t number, const BatchDevice::Take& take);
+  void dropDevice();
+  bool noteLoss(const std::string& error);
+  void noteRefusal(const std::string& error);
+  void rest(const std::string& error);
+  void noteProgress();
+  void noteStatus();
+
+  const Open open_device;
+  const DeviceLimits limits;
+  std::unique_ptr<BatchDevice> device;
+
+  std::mutex mutex;  // guards the members below
+  std::condition_variable wake;
+  std::condition_variable ended;
+  Job job;
+  bool is_busy = false;
+  bool is_stopping = false;
+  bool is_abandoned = false;
+  std::weak_ptr<Batch> batch;  // of the running job
+  std::size_t number = 0;      // in this batch
+  Clock::time_point progress;
+  double limit_seconds = 0.0;  // of the running job
+  Clock::time_point retry = Clock::time_point::min();
+  std::deque<Clock::time_point> losses;
+  bool was_open = false;
+  DeviceHistory history;
+  std::string name;
+  bool is_software = true;
+  std::string fault;
+  double rate = 0.0;
+  double latency = 0.0;
+  std::thread thread;
+};
+
+void DeviceWorker::Shared::serve()
+{
+  std::unique_lock<std::mutex> lock(mutex);
+  while (true)
+  {
+    wake.wait(lock, [this] { return is_stopping || job; });
+    if (!job)
+      break;
+    Job taken = std::exchange(job, nullptr);
+    lock.unlock();
+    taken(*this);
+    taken = nullptr;  // destroys the job's objects on this thread
+    lock.lock();
+    is_busy = false;
+    ended.notify_all();
+  }
+  lock.unlock();
+  device.reset();
+}
+
+void DeviceWorker::Shared::noteProgress()
+{
+  const std::lock_guard<std::mutex> lock(mutex);
+  progress = Clock::now();
+}
+
+/// A new fault means that the device has lost an ability.
+void DeviceWorker::Shared::noteStatus()
+{
+  std::string new_name = device->name();
+  std::string new_fault = device->fault();
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (is_abandoned)
+    return;
+  name = std::move(new_name);
+  history.on_cpu = false;
+  if (fault == new_fault)
+    return;
+  fault = std::move(new_fault);
+  if (!fault.empty() && was_open)
+  {
+    ++history.losses;
+    history.last_error = fault;
+  }
+}
+
+/// Opens the device if it is not open. Throws the errors of the device.
+void DeviceWorker::Shared::prepare(const DeviceTask& task)
+{
+  const bool is_new = !device;
+  if (is_new)
+    device = open_device();
+  device->prepare(task);
+  if (is_new)
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    history.rebuilds += was_open ? 1 : 0;
+    history.rebuild_failed = false;
+    name = device->name();
+    is_software = device->isSoftware();
+    fault = device->fault();
+    was_open = true;
+  }
+  noteProgress();
+  noteStatus();
+}
+
+void DeviceWorker::Shared::checkParts(Batch& its_batch, const DeviceTask& task, std::size_t its_number,
+                                      const BatchDevice::Take& take)
+{
+  prepare(task);
+  const Clock::time_point start = Clock::now();
+  Clock::time_point first_end = start;
+  std::size_t states = 0;
+  std::size_t parts = 0;
+  const BatchDevice::Take counted = [&](std::size_t most)
+  {
+    noteProgress();
+    // A device takes two parts ahead, so at the third, the first one is answered.
+    if (++parts == 3)
+      first_end = Clock::now();
+    const StateRange part = take(most);
+    states += part.count;
+    return part;
+  };
+  device->check(its_batch, its_number, counted);
+  const Clock::time_point end = Clock::now();
+  noteStatus();
+  const std::lock_guard<std::mutex> lock(mutex);
+  const double seconds = secondsBetween(start, end);
+  const double first = parts >= 3 && first_end != start ? secondsBetween(start, first_end) : seconds;
+  if (states != 0)
+    latency = latency == 0.0 ? first : std::min(latency, first);
+  if (states >= kLeastForRate && seconds > 0.0)
+    rate = static_cast<double>(states) / seconds;
+}
+
+void DeviceWorker::Shared::dropDevice()
+{
+  if (!device)
+    return;
+  device.reset();
+  // A software renderer has hundreds of megabytes on the heap, which free() alone would not return to the system.
+  malloc_trim(0);
+}
+
+/// The device is not used for some time.
+void DeviceWorker::Shared::rest(const std::string& error)
+{
+  const std::lock_guard<std::mutex> lock(mutex);
+  retry = Clock::now() + duration(limits.retry_seconds);
+  history.on_cpu = true;
+  history.last_error = error;
+}
+
+/// Returns whether the device may be opened again now.
+bool DeviceWorker::Shared::noteLoss(const std::string& error)
+{
+  const bool was_opening = !device;
+  dropDevice();
+  const Clock::time_point now = Clock::now();
+  bool too_often = false;
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    history.rebuild_failed = history.rebuild_failed || (was_opening && was_open);
+    ++history.losses;
+    history.last_error = error;
+    losses.push_back(now);
+    while (losses.front() < now - duration(limits.loss_window))
+      losses.pop_front();
+    too_often = losses.size() >= limits.max_losses;
+  }
+  if (too_often)
+    rest(error);
+  return !too_often;
+}
+
+/// The device cannot be opened, or cannot hold the scene.
+void DeviceWorker::Shared::noteRefusal(const std::string& error)
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex);
+    history.rebuild_failed = history.rebuild_failed || (!device && was_open);
+  }
+  dropDevice();
+  rest(error);
+}
+
+DeviceWorker::DeviceWorker(Open open, const DeviceLimits& limits)
+  : shared_(std::make_shared<Shared>(std::move(open), limits))
+{
+  shared_->thread = std::thread([shared = shared_] { shared->serve(); });
+}
+
+DeviceWorker::~DeviceWorker()
+{
+  {
+    const std::lock_guard<std::mutex> lock(shared_->mutex);
+    shared_->is_stopping = true;
+    if (shared_->is_abandoned)
+      return;
+  }
+  shared_->wake.notify_one();
+  wait();
+  if (shared_->thread.joinable())
+    shared_->thread.join();
+}
+
+void DeviceWorker::wait()
+{
+  do
+  {
+    std::unique_lock<std::mutex> lock(shared_->mutex);
+    if (shared_->ended.wait_for(lock, std::chrono::milliseconds(20),
+                                [this] { return !shared_->is_busy || shared_->is_abandoned; }))
+      return;
+  } while (!abandonIfOverdue());
+}
+
+void DeviceWorker::begin(Shared::Job job, const DeviceTask& task)
+{
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  shared_->job = std::move(job);
+  shared_->is_busy = true;
+  shared_->progress = Clock::now();
+  shared_->limit_seconds = shared_->limits.device_seconds * (1.0 + millionTriangles(*task.scene));
+  shared_->wake.notify_one();
+}
+
+void DeviceWorker::open(const DeviceTask& task)
+{
+  const auto error = std::make_shared<std::exception_ptr>();
+  begin(
+      [error, task](Shared& shared)
+      {
+        try
+        {
+          shared.prepare(task);
+        }
+        catch (...)
+        {
+          *error = std::current_exception();
+          shared.dropDevice();
+        }
+      },
+      task);
+  std::unique_lock<std::mutex> lock(shared_->mutex);
+  shared_->ended.wait(lock, [this] { return !shared_->is_busy; });
+  lock.unlock();
+  if (*error)
+    std::rethrow_exception(std::exchange(*error, nullptr));
+}
+
+namespace
+{
+/// Runs `work`; if the device is lost, once more. Notes all errors, and throws none.
+template <class SharedState, class Work>
+void runTolerantly(SharedState& shared, const Work& work)
+{
+  for (int attempt = 1; attempt <= kAttempts; ++attempt)
+    try
+    {
+      return work();
+    }
+    catch (const DeviceLost& error)
+    {
+      if (!shared.noteLoss(error.what()))
+        return;
+      if (attempt == kAttempts)
+        shared.rest(error.what());
+    }
+    catch (const std::exception& error)
+    {
+      return shared.noteRefusal(error.what());
+    }
+}
+}  // namespace
+
+void DeviceWorker::prepare(const DeviceTask& task)
+{
+  if (isFree())
+    begin(
+        [task](Shared& shared)
+        {
+          runTolerantly(
+              shared, [&] { shared.prepare(task); });
+        },
+        task);
+}
+
+bool DeviceWorker::isFree() const
+{
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  return !shared_->is_busy && !shared_->is_abandoned && Clock::now() >= shared_->retry;
+}
+
+bool DeviceWorker::start(const std::shared_ptr<Batch>& batch, const DeviceTask& task, std::size_t device, double share,
+                         std::size_t most, std::size_t rounds)
+{
+  if (!isFree())
+    return false;
+  batch->join(device);
+  {
+    const std::lock_guard<std::mutex> lock(shared_->mutex);
+    shared_->batch = batch;
+    shared_->number = device;
+  }
+  begin(
+      [batch, task, device, share, most, rounds](Shared& shared)
+      {
+        std::size_t taken = 0;
+        const BatchDevice::Take take = [&](std::size_t wanted)
+        {
+          if (rounds != 0 && taken++ == rounds)
+            return StateRange();
+          return batch->takeForDevice(device, std::min(wanted, most), share);
+        };
+        runTolerantly(shared,
+                      [&]
+                      {
+                        try
+                        {
+                          shared.checkParts(*batch, task, device, take);
+                        }
+                        catch (...)
+                        {
+                          batch->giveBack(device);
+                          throw;
+                        }
+                      });
+        batch->leave(device);
+      },
+      task);
+  return true;
+}
+
+bool DeviceWorker::abandonIfOverdue()
+{
+  {
+    const std::lock_guard<std::mutex> lock(shared_->mutex);
+    if (!shared_->is_busy || shared_->is_abandoned || !std::isfinite(shared_->limits.device_seconds) ||
+        Clock::now() - shared_->progress <= duration(shared_->limit_seconds))
+      return false;
+  }
+  abandon();
+  return true;
+}
+
+/// The thread then owns what the device uses.
+void DeviceWorker::abandon()
+{
+  std::shared_ptr<Batch> batch;
+  {
+    const std::lock_guard<std::mutex> lock(shared_->mutex);
+    std::ostringstream message;
+    message << "the device has not answered for " << shared_->limit_seconds << " s and is no longer used";
+    shared_->is_abandoned = true;
+    shared_->is_stopping = true;  // the thread exits if the device returns after all
+    ++shared_->history.losses;
+    shared_->history.last_error = message.str();
+    shared_->history.on_cpu = true;
+    shared_->history.rebuild_failed = true;
+    batch = shared_->batch.lock();
+    shared_->thread.detach();
+  }
+  if (batch)
+    batch->leave(shared_->number);
+}
+
+double DeviceWorker::rate() const
+{
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  return shared_->rate;
+}
+
+double DeviceWorker::latency() const
+{
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  return shared_->latency;
+}
+
+void DeviceWorker::forgetRate()
+{
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  shared_->rate = shared_->latency = 0.0;
+}
+
+std::string DeviceWorker::name() const
+{
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  return shared_->name;
+}
+
+bool DeviceWorker::isSoftware() const
+{
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  return shared_->is_software;
+}
+
+std::string DeviceWorker::fault() const
+{
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  return shared_->fault;
+}
+
+DeviceHistory DeviceWorker::history() const
+{
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  return shared_->history;
+}
+}  // namespace gpu_planning_scene::core

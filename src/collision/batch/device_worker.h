@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "collision/batch/batch.h"
+#include "collision/batch/batch_device.h"
+#include "gpu_planning_scene/batch_checker_options.h"
+
+namespace gpu_planning_scene::core
+{
+/// A device with a thread of its own, which takes parts of batches. If the device is lost, the parts go back to the
+/// batch, and the thread opens the device again; after too many losses in a short time, it does so later. A device that
+/// hangs is abandoned together with its thread and all that they use, for good: so at most one thread is lost. Own
+/// method. One caller at a time, except for the functions that say otherwise.
+class DeviceWorker
+{
+ public:
+  using Open = std::function<std::unique_ptr<BatchDevice>()>;
+
+  /// `open` is called on the worker's thread.
+  DeviceWorker(Open open, const DeviceLimits& limits);
+  /// Waits for the thread, unless it was abandoned.
+  ~DeviceWorker();
+  DeviceWorker(const DeviceWorker&) = delete;
+  DeviceWorker& operator=(const DeviceWorker&) = delete;
+
+  /// Opens the device, prepares it for the task, and waits for this without a limit. Throws the errors of the device.
+  void open(const DeviceTask& task);
+
+  /// Starts to prepare for a task, and opens the device if it is not open. Does nothing if the worker is not free.
+  void prepare(const DeviceTask& task);
+
+  /// Waits until the device has done its work, or is abandoned because it hangs.
+  void wait();
+
+  /// Whether the worker could start now: its thread waits, and no rest after losses is due.
+  bool isFree() const;
+
+  /// Joins the batch under the number `device`, and begins to take parts: each at most `most` states and at most
+  /// `share` of the waiting ones. If `rounds` is not 0, it takes this many parts only. Returns false, and does not
+  /// join, if the worker is not free.
+  bool start(const std::shared_ptr<Batch>& batch, const DeviceTask& task, std::size_t device, double share,
+             std::size_t most, std::size_t rounds);
+
+  /// Abandons the device if it works and has not made progress for longer than its limit. Returns whether it did.
+  bool abandonIfOverdue();
+
+  /// States per second in the last batches, and the seconds that the first part of a batch takes at least; 0: not
+  /// known. forgetRate: the next batches differ. Thread-safe.
+  double rate() const;
+  double latency() const;
+  void forgetRate();
+
+  /// These functions are thread-safe.
+  std::string name() const;
+  /// True until the device has been opened.
+  bool isSoftware() const;
+  std::string fault() const;
+  /// `on_cpu`: the device cannot be used now, because of an error.
+  DeviceHistory history() const;
+
+ private:
+  struct Shared;
+  void begin(std::function<void(Shared&)> job, const DeviceTask& task);
+  void abandon();
+
+  std::shared_ptr<Shared> shared_;  // with the thread, which may outlive the worker
+};
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "collision/batch/state_range.h"
+
+namespace gpu_planning_scene::core
+{
+/// Where a device gets the states of a batch from, and where it brings their verdicts. Used on the context's thread.
+class PartSource
+{
+ public:
+  virtual ~PartSource() = default;
+
+  /// The next states, at most `most`. An empty range: there is none, and the device need not ask again.
+  virtual StateRange take(std::size_t most) = 0;
+
+  /// The verdicts of states that were taken, see GpuPairChecker. The states of a part may come in several calls, in
+  /// ascending order.
+  virtual void bring(const StateRange& states, const std::uint32_t* verdicts) = 0;
+};
+}  // namespace gpu_planning_scene::core
