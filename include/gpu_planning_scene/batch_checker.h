@@ -33,7 +33,7 @@ class BatchChecker : public StateChecker
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
   BatchResult check(const double* states, std::size_t count, const std::string& group = "",
                     const JointNeighbourhood* around = nullptr) override;
-  BatchResult check(const StateBatch& batch) override;
+  BatchResult checkBatch(const StateBatch& batch) override;
   SceneReport report(const std::string& group = "") override;
   bool checksSideBySide() const override { return true; }
 

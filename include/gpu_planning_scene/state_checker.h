@@ -160,7 +160,7 @@ class StateChecker
 
   /// The same for a batch that may take long. Throws Cancelled too. By default, all states are checked at once, and
   /// `go_on` is not called.
-  virtual BatchResult check(const StateBatch& batch)
+  virtual BatchResult checkBatch(const StateBatch& batch)
   {
     return check(batch.states, batch.count, batch.group, batch.around);
   }

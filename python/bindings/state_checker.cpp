@@ -180,7 +180,7 @@ BatchResult SharedChecker::check(const double* states, std::size_t count, const 
   BatchResult result;
   try
   {
-    result = checker_->check(batch);
+    result = checker_->checkBatch(batch);
   }
   catch (const core::Cancelled&)
   {

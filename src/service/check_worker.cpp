@@ -157,7 +157,7 @@ CheckAnswer CheckWorker::check(CheckBatch& batch, std::size_t count)
   if (job.report)
     answer.report = checker_->report(job.group);
   if (std::any_of(batch.begin(), batch.end(), [](const CheckRequest& request) { return request.job.keep_states; }))
-    answer.states = std::move(*states);
+    answer.states = *states;  // a device that hangs may still read them
   answer.device = checker_->deviceName();
   return answer;
 }
@@ -200,7 +200,7 @@ BatchResult CheckWorker::checkStates(const std::shared_ptr<const std::vector<dou
   batch.go_on = [this](std::size_t) { return !queue_.isStopping(); };
   try
   {
-    return checker_->check(batch);
+    return checker_->checkBatch(batch);
   }
   catch (const Cancelled&)
   {

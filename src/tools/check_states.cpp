@@ -68,7 +68,7 @@ BatchResult checkAll(StateChecker& checker, StateSource& source, const std::stri
       progress.update(begin + answered);
       return true;
     };
-    all.append(checker.check(batch));
+    all.append(checker.checkBatch(batch));
     progress.update(all.valid.size());
   }
   return all;

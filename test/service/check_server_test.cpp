@@ -393,7 +393,7 @@ TEST_F(Server, StopDropsTheCheckers)
     EXPECT_TRUE(checker.expired());
 }
 
-TEST_F(Server, ALargeRequestIsCheckedInSlices)
+TEST_F(Server, ALargeRequestIsAnsweredWhole)
 {
   CheckJob large = job(100);
   for (std::size_t i = 0; i < 100; i += 3)
@@ -404,24 +404,6 @@ TEST_F(Server, ALargeRequestIsCheckedInSlices)
   for (std::size_t i = 0; i < 100; ++i)
     EXPECT_EQ(i % 3 == 0 ? 0 : 1, answer.result.valid[i]) << i;
   EXPECT_EQ((std::vector<std::size_t>{24, 24, 24, 24, 4}), gate.batches());
-}
-
-/// The states of the new scene may take much longer.
-TEST_F(Server, SlicesBeginSmallAgainInANewScene)
-{
-  CheckServerOptions large = options();
-  large.max_states = large.max_waiting_states = 20000;
-  large.max_batch_states = 20000;
-  CheckServer roomy(store, checkersAt(gate), large);
-  roomy.submit(job(8000)).get();
-  const std::vector<std::size_t> first = gate.batches();
-  EXPECT_GT(first.at(1), first.at(0));
-  roomy.submit(job(8000)).get();
-  const std::size_t before = gate.batches().size();
-  EXPECT_GT(gate.batches().at(first.size()), first.at(0)) << "the same scene";
-  rename("new");
-  roomy.submit(job(8000)).get();
-  EXPECT_EQ(gate.batches().at(before), first.at(0));
 }
 
 TEST_F(Server, StopEndsALargeRequestAfterItsCurrentSlice)

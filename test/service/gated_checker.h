@@ -40,6 +40,8 @@ class GatedChecker : public StateChecker
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
   BatchResult check(const double* states, std::size_t count, const std::string& group,
                     const JointNeighbourhood* around) override;
+  /// In slices of 24 states.
+  BatchResult checkBatch(const StateBatch& batch) override;
   SceneReport report(const std::string& group) override;
   std::string deviceName() const override { return "gate"; }
 

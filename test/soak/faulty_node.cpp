@@ -3,6 +3,7 @@
 #include <atomic>
 #include <random>
 
+#include "collision/batch/batch.h"
 #include "collision/batch/batch_device.h"
 #include "gpu_planning_scene/error.h"
 #include "node/run_node.h"

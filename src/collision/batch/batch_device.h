@@ -4,13 +4,15 @@
 #include <memory>
 #include <string>
 
-#include "collision/batch/batch.h"
-#include "collision/filter/lanes/lane_scene.h"
-#include "collision/problem/collision_problem.h"
+#include "collision/batch/state_range.h"
 #include "gpu_planning_scene/batch_checker_options.h"
 
 namespace gpu_planning_scene::core
 {
+class Batch;
+class LaneScene;
+struct CollisionProblem;
+
 /// What a device checks. Immutable.
 struct DeviceTask
 {

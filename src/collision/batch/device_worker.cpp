@@ -14,6 +14,7 @@
 
 #include <malloc.h>
 
+#include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core

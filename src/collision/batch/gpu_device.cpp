@@ -1,6 +1,7 @@
 #include <utility>
 #include <vector>
 
+#include "collision/batch/batch.h"
 #include "collision/batch/batch_device.h"
 #include "collision/gpu/gpu_checker.h"
 

@@ -28,7 +28,7 @@ BatchResult BatchChecker::check(const double* states, std::size_t count, const s
   return scheduler_->check({states, count, group, around});
 }
 
-BatchResult BatchChecker::check(const StateBatch& batch)
+BatchResult BatchChecker::checkBatch(const StateBatch& batch)
 {
   return scheduler_->check(batch);
 }

@@ -26,7 +26,7 @@ BatchResult CpuChecker::check(const double* states, std::size_t count, const std
   return scheduler_->check({states, count, group, around});
 }
 
-BatchResult CpuChecker::check(const StateBatch& batch)
+BatchResult CpuChecker::checkBatch(const StateBatch& batch)
 {
   return scheduler_->check(batch);
 }

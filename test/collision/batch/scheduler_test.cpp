@@ -333,8 +333,10 @@ TEST_F(SchedulerTest, OneOfTwoDevicesWorksOnWhenTheOtherIsLost)
   second->name = "B";
   devices_.push_back(second);
   scheduler();
-  device_->parts = {lose, lose};
+  device_->prepares = {lose, lose};
   expectRight(kCount);
+  scheduler().setScene(cartScene(-1.0, 2));
+  expectRight(kCount, -1.0, 2);
   EXPECT_EQ(scheduler().deviceName(), "B");
   EXPECT_NE(scheduler().deviceWarning().find("the device a device has failed and is not used: gone"), std::string::npos)
       << scheduler().deviceWarning();

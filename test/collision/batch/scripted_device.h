@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "collision/batch/batch.h"
 #include "collision/batch/batch_device.h"
+#include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/planning_scene.h"
 #include "model/model_testing.h"
 

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/batch/batch.h"
 #include "gpu_planning_scene/error.h"
 #include "model/model_testing.h"
 #include "node/endpoints/diagnostics.h"
