@@ -49,6 +49,10 @@ class Documents(unittest.TestCase):
         text = "# A `b`: c, d\n[x](#a-b-c-d) [y](#a-b) [z](README.md#gpu_planning_scene) [w](README.md#none)"
         self.assertEqual(["#a-b", "README.md#none"], missing_sections(text, ROOT / "x.md"))
 
+    def test_results_and_notes_are_no_diaries(self):
+        for name in ("RESULTS.md", "NOTES.md"):
+            self.assertLessEqual(len((ROOT / "bench" / name).read_text().splitlines()), 400, name)
+
 
 if __name__ == "__main__":
     unittest.main()
