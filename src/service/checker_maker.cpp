@@ -41,28 +41,30 @@ class CheckerMaker
     auto scheduler = schedulerOf(options_, open_device_);
     if (opened_)
       scheduler->setScene(scene);
-    else if (!opens(*scheduler, scene))
-      return std::make_shared<CpuChecker>(scene, options_);
+    else if (auto on_cpu = openFirst(*scheduler, scene))
+      return on_cpu;
     return std::make_shared<BatchChecker>(std::move(scheduler));
   }
 
   /// At the start: a device that the user has named must work. The devices "auto" and "all" need not exist.
-  bool opens(Scheduler& scheduler, const Scene& scene)
+  /// Returns a checker if the CPU must answer.
+  std::shared_ptr<StateChecker> openFirst(Scheduler& scheduler, const Scene& scene)
   {
     try
     {
       scheduler.openDevices(scene);
       opened_ = true;
-      return true;
+      return nullptr;
     }
     catch (const Error& error)
     {
       if (options_.device != "auto" && options_.device != "all")
         throw;
+      auto on_cpu = std::make_shared<CpuChecker>(scene, options_);  // throws if the scene is not valid
       cpu_only_ = true;
       warn_(std::string("No GL device can be used, so the CPU checks all states until the node is started again. ") +
             "Reason: " + error.what());
-      return false;
+      return on_cpu;
     }
   }
 

@@ -188,17 +188,17 @@ StateRange Batch::beginAnswer(std::size_t device, const StateRange& part)
   const std::lock_guard<std::mutex> lock(mutex_);
   if (closed_)
     return {};
-  const auto known = std::find_if(
-      at_devices_.begin(), at_devices_.end(),
-      [&](const DevicePart& other)
-      { return other.device == device && other.range.begin <= part.begin && part.end() <= other.range.end(); });
+  const auto known =
+      std::find_if(at_devices_.begin(), at_devices_.end(),
+                   [&](const DevicePart& other) { return other.device == device && other.range.begin == part.begin; });
   if (known == at_devices_.end())
     return {};
   const StateRange states{part.begin, std::max(part.begin, std::min(part.end(), known->open_end)) - part.begin};
-  known->range.begin = part.end();
+  known->range = {part.end(), known->range.end() - part.end()};
   if (known->range.begin >= known->open_end)
     at_devices_.erase(known);
-  ++writing_;
+  if (states.count != 0)
+    ++writing_;
   return states;
 }
 

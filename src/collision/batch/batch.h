@@ -58,7 +58,8 @@ class Batch
   void leave(std::size_t device);
   /// The next part: at most `most` states, and at most `share` of the waiting states. An empty part: there is none.
   StateRange takeForDevice(std::size_t device, std::size_t most, double share);
-  /// Must be called before a device writes the answers of a part. Returns the states that it may write.
+  /// Must be called before a device writes the answers of a part, or of its next states in ascending order. Returns the
+  /// states that it may write; if there is one, endAnswer must follow.
   StateRange beginAnswer(std::size_t device, const StateRange& part);
   /// After beginAnswer: its states are answered, except for `undecided` ones, which cores then check.
   void endAnswer(const StateRange& states, const std::vector<std::size_t>& undecided);

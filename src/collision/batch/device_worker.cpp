@@ -10,7 +10,6 @@
 #include <sstream>
 #include <thread>
 #include <utility>
-#include <variant>
 
 #include <malloc.h>
 
@@ -61,6 +60,7 @@ struct DeviceWorker::Shared
   bool noteLoss(const std::string& error);
   void noteRefusal(const std::string& error);
   void rest(const std::string& error);
+  bool isAbandoned();
   void noteProgress();
   void noteStatus();
 
@@ -75,8 +75,9 @@ struct DeviceWorker::Shared
   bool is_busy = false;
   bool is_stopping = false;
   bool is_abandoned = false;
-  std::weak_ptr<Batch> batch;  // of the running job
-  std::size_t number = 0;      // in this batch
+  std::weak_ptr<Batch> batch;      // of the running job
+  std::size_t number = 0;          // in this batch
+  bool has_borrowed_rows = false;  // the batch has no owner
   Clock::time_point progress;
   double limit_seconds = 0.0;  // of the running job
   Clock::time_point retry = Clock::time_point::min();
@@ -109,6 +110,12 @@ void DeviceWorker::Shared::serve()
   }
   lock.unlock();
   device.reset();
+}
+
+bool DeviceWorker::Shared::isAbandoned()
+{
+  const std::lock_guard<std::mutex> lock(mutex);
+  return is_abandoned;
 }
 
 void DeviceWorker::Shared::noteProgress()
@@ -270,14 +277,24 @@ void DeviceWorker::wait()
   } while (!abandonIfOverdue());
 }
 
-void DeviceWorker::begin(Shared::Job job, const DeviceTask& task)
+bool DeviceWorker::begin(Shared::Job job, const DeviceTask& task, const std::shared_ptr<Batch>& batch,
+                         std::size_t number, bool must_rest)
 {
+  const double limit = shared_->limits.device_seconds * (1.0 + millionTriangles(*task.scene));
   const std::lock_guard<std::mutex> lock(shared_->mutex);
+  if (shared_->is_busy || shared_->is_abandoned || (must_rest && Clock::now() < shared_->retry))
+    return false;
+  if (batch)
+    batch->join(number);
   shared_->job = std::move(job);
   shared_->is_busy = true;
+  shared_->batch = batch;
+  shared_->number = number;
+  shared_->has_borrowed_rows = batch && !batch->hasOwner();
   shared_->progress = Clock::now();
-  shared_->limit_seconds = shared_->limits.device_seconds * (1.0 + millionTriangles(*task.scene));
+  shared_->limit_seconds = limit;
   shared_->wake.notify_one();
+  return true;
 }
 
 void DeviceWorker::open(const DeviceTask& task)
@@ -296,7 +313,7 @@ void DeviceWorker::open(const DeviceTask& task)
           shared.dropDevice();
         }
       },
-      task);
+      task, nullptr, 0, false);
   std::unique_lock<std::mutex> lock(shared_->mutex);
   shared_->ended.wait(lock, [this] { return !shared_->is_busy; });
   lock.unlock();
@@ -317,28 +334,27 @@ void runTolerantly(SharedState& shared, const Work& work)
     }
     catch (const DeviceLost& error)
     {
-      if (!shared.noteLoss(error.what()))
+      if (shared.isAbandoned() || !shared.noteLoss(error.what()))
         return;
       if (attempt == kAttempts)
         shared.rest(error.what());
     }
     catch (const std::exception& error)
     {
-      return shared.noteRefusal(error.what());
+      return shared.isAbandoned() ? void() : shared.noteRefusal(error.what());
     }
 }
 }  // namespace
 
 void DeviceWorker::prepare(const DeviceTask& task)
 {
-  if (isFree())
-    begin(
-        [task](Shared& shared)
-        {
-          runTolerantly(
-              shared, [&] { shared.prepare(task); });
-        },
-        task);
+  begin(
+      [task](Shared& shared)
+      {
+        runTolerantly(
+            shared, [&] { shared.prepare(task); });
+      },
+      task, nullptr, 0, true);
 }
 
 bool DeviceWorker::isFree() const
@@ -350,61 +366,45 @@ bool DeviceWorker::isFree() const
 bool DeviceWorker::start(const std::shared_ptr<Batch>& batch, const DeviceTask& task, std::size_t device, double share,
                          std::size_t most, std::size_t rounds)
 {
-  if (!isFree())
-    return false;
-  batch->join(device);
-  {
-    const std::lock_guard<std::mutex> lock(shared_->mutex);
-    shared_->batch = batch;
-    shared_->number = device;
-  }
-  begin(
+  return begin(
       [batch, task, device, share, most, rounds](Shared& shared)
       {
         std::size_t taken = 0;
         const BatchDevice::Take take = [&](std::size_t wanted)
         {
-          if (rounds != 0 && taken++ == rounds)
+          if (rounds != 0 && taken++ >= rounds)
             return StateRange();
           return batch->takeForDevice(device, std::min(wanted, most), share);
         };
-        runTolerantly(shared,
-                      [&]
-                      {
-                        try
-                        {
-                          shared.checkParts(*batch, task, device, take);
-                        }
-                        catch (...)
-                        {
-                          batch->giveBack(device);
-                          throw;
-                        }
-                      });
+        runTolerantly(
+            shared,
+            [&]
+            {
+              try
+              {
+                shared.checkParts(*batch, task, device, take);
+              }
+              catch (...)
+              {
+                batch->giveBack(device);
+                throw;
+              }
+            });
         batch->leave(device);
       },
-      task);
-  return true;
+      task, batch, device, true);
 }
 
+/// The thread then owns what the device uses. It must not have borrowed rows: their owner may free them.
 bool DeviceWorker::abandonIfOverdue()
-{
-  {
-    const std::lock_guard<std::mutex> lock(shared_->mutex);
-    if (!shared_->is_busy || shared_->is_abandoned || !std::isfinite(shared_->limits.device_seconds) ||
-        Clock::now() - shared_->progress <= duration(shared_->limit_seconds))
-      return false;
-  }
-  abandon();
-  return true;
-}
-
-/// The thread then owns what the device uses.
-void DeviceWorker::abandon()
 {
   std::shared_ptr<Batch> batch;
   {
     const std::lock_guard<std::mutex> lock(shared_->mutex);
+    if (!shared_->is_busy || shared_->is_abandoned || shared_->has_borrowed_rows ||
+        !std::isfinite(shared_->limits.device_seconds) ||
+        Clock::now() - shared_->progress <= duration(shared_->limit_seconds))
+      return false;
     std::ostringstream message;
     message << "the device has not answered for " << shared_->limit_seconds << " s and is no longer used";
     shared_->is_abandoned = true;
@@ -415,9 +415,12 @@ void DeviceWorker::abandon()
     shared_->history.rebuild_failed = true;
     batch = shared_->batch.lock();
     shared_->thread.detach();
+    shared_->wake.notify_one();
+    shared_->ended.notify_all();
   }
   if (batch)
     batch->leave(shared_->number);
+  return true;
 }
 
 double DeviceWorker::rate() const

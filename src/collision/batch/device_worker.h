@@ -14,7 +14,7 @@ namespace gpu_planning_scene::core
 /// A device with a thread of its own, which takes parts of batches. If the device is lost, the parts go back to the
 /// batch, and the thread opens the device again; after too many losses in a short time, it does so later. A device that
 /// hangs is abandoned together with its thread and all that they use, for good: so at most one thread is lost. Own
-/// method. One caller at a time, except for the functions that say otherwise.
+/// method. Thread-safe.
 class DeviceWorker
 {
  public:
@@ -49,12 +49,11 @@ class DeviceWorker
   bool abandonIfOverdue();
 
   /// States per second in the last batches, and the seconds that the first part of a batch takes at least; 0: not
-  /// known. forgetRate: the next batches differ. Thread-safe.
+  /// known. forgetRate: the next batches differ.
   double rate() const;
   double latency() const;
   void forgetRate();
 
-  /// These functions are thread-safe.
   std::string name() const;
   /// True until the device has been opened.
   bool isSoftware() const;
@@ -64,8 +63,10 @@ class DeviceWorker
 
  private:
   struct Shared;
-  void begin(std::function<void(Shared&)> job, const DeviceTask& task);
-  void abandon();
+  /// Claims the worker, joins the batch, and starts the job. Returns false, and does nothing, if the worker is not
+  /// free. `must_rest`: it is not free either during its rest after losses.
+  bool begin(std::function<void(Shared&)> job, const DeviceTask& task, const std::shared_ptr<Batch>& batch,
+             std::size_t number, bool must_rest);
 
   std::shared_ptr<Shared> shared_;  // with the thread, which may outlive the worker
 };

@@ -201,8 +201,17 @@ void Scheduler::noteWork(const GpuWork& work)
   last_work_ = work;
 }
 
-BatchResult Scheduler::checkTogether(const StateBatch& asked, std::optional<Margins> margins, const Plan& plan)
+BatchResult Scheduler::checkTogether(const StateBatch& borrowed, std::optional<Margins> margins, const Plan& plan)
 {
+  // A device that hangs may read the states after the call.
+  StateBatch asked = borrowed;
+  if (!plan.devices.empty() && !asked.owner)
+  {
+    const std::size_t width = scene_.scene()->robot->variables().size();
+    const auto copy = std::make_shared<const std::vector<double>>(asked.states, asked.states + asked.count * width);
+    asked.states = copy->data();
+    asked.owner = copy;
+  }
   std::vector<std::size_t> for_cores;
   if (!plan.devices.empty())
     for_cores = onlyForCores(asked, margins ? &*margins : nullptr);
@@ -271,9 +280,9 @@ void Scheduler::runCores(Batch& batch, const StateBatch& asked)
       while (helpers.size() + 1 < wanted)
         helpers.emplace_back(work, nullptr);
     }
-    catch (const std::system_error&)
+    catch (const std::exception&)
     {
-      // The threads that could be started do all the work.
+      // No thread, or no memory for one. The threads that could be started do all the work.
     }
     work(&progress);
     for (std::thread& helper : helpers)

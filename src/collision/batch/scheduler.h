@@ -62,7 +62,7 @@ class Scheduler
   DeviceTask taskOf(const std::string& group);
   std::vector<std::size_t> onlyForCores(const StateBatch& asked, const Margins* margins);
   BatchResult checkOnCaller(const StateBatch& asked, const Margins* margins);
-  BatchResult checkTogether(const StateBatch& asked, std::optional<Margins> margins, const Plan& plan);
+  BatchResult checkTogether(const StateBatch& borrowed, std::optional<Margins> margins, const Plan& plan);
   void runCores(Batch& batch, const StateBatch& asked);
   void noteCores(std::size_t states, double seconds);
   void noteProofs(ProofStage stage);

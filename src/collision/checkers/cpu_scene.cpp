@@ -198,6 +198,8 @@ CpuScene::Core::~Core()
 
 void CpuScene::Core::check(const double* states, const StateRange& part, const Margins* margins, BatchResult& result)
 {
+  if (part.count == 0)
+    return;
   if (const auto& colliding = group_->problem->always_colliding)
   {
     std::fill_n(&result.valid[part.begin], part.count, 0);

@@ -267,6 +267,7 @@ bool GpuPairChecker::fetch(Part& part, PartSource& to)
 {
   const AnswerOffsets offsets(part.states.count);
   const std::uint32_t* words = part.fetched.wait();
+  refuseLostContext();  // a reset may have left wrong verdicts behind
   if (words[COUNTER_OVERFLOW] != 0 || words[COUNTER_DONE] != part.serial)
     return false;
   work_.states += part.states.count;

@@ -139,6 +139,18 @@ TEST_F(BatchParts, AreOvertakenOnlyIfTheBatchHasAnOwner)
   }
 }
 
+TEST_F(BatchParts, ThatWereOvertakenWhollyNeedNoEndOfTheirAnswer)
+{
+  const auto batch = batchOf(100, true);
+  batch->join(1);
+  const StateRange part = batch->takeForDevice(1, kAny, 1.0);
+  for (StateRange own = batch->takeForCore(kAny); own.count != 0; own = batch->takeForCore(kAny))
+    batch->answered(own);
+  EXPECT_EQ(batch->beginAnswer(1, part).count, 0U);
+  EXPECT_TRUE(batch->isComplete());
+  batch->close();
+}
+
 TEST_F(BatchParts, OfAClosedBatchAreNeitherTakenNorAnswered)
 {
   const auto batch = batchOf(1'000, true);
