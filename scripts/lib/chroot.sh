@@ -8,6 +8,12 @@ require_chroots()
   command -v debootstrap > /dev/null || die "debootstrap is missing: apt install debootstrap"
 }
 
+# remove_chroots FOLDER: removes the hidden folders that a killed run has left there.
+remove_chroots()
+{
+  find "$1" -mindepth 1 -maxdepth 1 -name '.*' -exec rm -rf --one-file-system {} + 2> /dev/null || true
+}
+
 # isolated FUNCTION ARGUMENTS...: calls an exported function in name spaces of its own, in which nothing outside sees
 # the mounts and no process outlives the call. The function has the functions of this file.
 isolated()
