@@ -35,6 +35,15 @@ install(DIRECTORY include/ DESTINATION ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 install(DIRECTORY shaders config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
 install(EXPORT gpu_planning_scene-targets NAMESPACE gpu_planning_scene:: DESTINATION ${installed_export_folder})
 
+if(NOT GPU_PLANNING_SCENE_ROS)
+  # catkin_package writes these files otherwise.
+  include(CMakePackageConfigHelpers)
+  write_basic_package_version_file(${PROJECT_BINARY_DIR}/gpu_planning_sceneConfig-version.cmake
+    COMPATIBILITY SameMinorVersion)
+  install(FILES ${PROJECT_BINARY_DIR}/gpu_planning_sceneConfig-version.cmake DESTINATION ${export_folder})
+  install(FILES cmake/gpu_planning_scene-extras.cmake DESTINATION ${export_folder} RENAME gpu_planning_sceneConfig.cmake)
+endif()
+
 if(GPU_PLANNING_SCENE_ROS)
   install(TARGETS gpu_planning_scene_client EXPORT gpu_planning_scene-targets
     LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
