@@ -40,6 +40,7 @@ if(NOT GPU_PLANNING_SCENE_ROS)
   include(CMakePackageConfigHelpers)
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/gpu_planning_sceneConfig-version.cmake
     COMPATIBILITY SameMinorVersion)
+  #catkin_lint: ignore_once missing_file
   install(FILES ${PROJECT_BINARY_DIR}/gpu_planning_sceneConfig-version.cmake DESTINATION ${export_folder})
   install(FILES cmake/gpu_planning_scene-extras.cmake DESTINATION ${export_folder} RENAME gpu_planning_sceneConfig.cmake)
 endif()
