@@ -3,7 +3,6 @@
 // (test/support/fcl_agreement.h) do not explain the difference, or if too few states are free or colliding.
 
 #include <cstdlib>
-#include <functional>
 #include <iostream>
 
 #include "gpu_planning_scene/batch_checker.h"

@@ -2,7 +2,6 @@
 // through a ShardedChecker with one node, and with the leader and its replicas. Prints the medians. Start it with
 // replicas.launch of this folder.
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <random>

@@ -2,7 +2,6 @@
 // and as a ratio to the same check without a required distance. Gaps between the poses of a row are the same.
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 

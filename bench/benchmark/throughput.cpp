@@ -2,7 +2,6 @@
 // change of the machine's speed affects all methods. A ratio is the median of the ratios within each repeat.
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <limits>
 #include <optional>

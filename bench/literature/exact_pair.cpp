@@ -1,7 +1,5 @@
 #include "literature/exact_pair.h"
 
-#include <utility>
-
 #include "collision/exact/binned_sah.h"
 #include "collision/parallel_for.h"
 

@@ -1,6 +1,5 @@
 #include "literature/families.h"
 
-#include <array>
 #include <iostream>
 #include <map>
 

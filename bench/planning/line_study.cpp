@@ -2,7 +2,6 @@
 // See --help.
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <map>
 #include <random>

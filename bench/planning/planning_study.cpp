@@ -4,7 +4,6 @@
 // See --help.
 
 #include <algorithm>
-#include <functional>
 #include <iostream>
 #include <map>
 #include <memory>

@@ -52,7 +52,6 @@ void runStability(const CommandLine& arguments)
   const std::vector<Family> families = chosenFamilies(arguments.value("--family", ""));
   const auto seed = arguments.count("--seed", 1, 0, 1ULL << 62);
   const auto cases = arguments.count("--cases", arguments.has("--quick") ? kQuickCases : kFullCases, 1, 1 << 24);
-  std::ofstream csv = openFile(arguments, "--csv");
   std::ofstream markdown = openFile(arguments, "--markdown");
   const auto with_proofs = static_cast<std::size_t>(
       arguments.integer("--proofs", static_cast<long long>(cases / kCasesPerProof), 0, 1 << 24));
@@ -85,8 +84,6 @@ void runStability(const CommandLine& arguments)
               << " decided by the CPU, " << rows.back().proven << " by balls" << std::endl;
   }
   writeMarkdown(markdown.is_open() ? markdown : std::cout, {seed, cases, ours.deviceName()}, rows);
-  if (csv.is_open())
-    writeCsv(csv, rows);
   if (wrong > 0)
     throw Error(std::to_string(wrong) + " wrong answers of the project's own methods with seed " +
                 std::to_string(seed));
@@ -97,7 +94,7 @@ int main(int argc, char** argv)
 {
   return runTool(
       {"stability",
-       "[--quick] [--seed N] [--cases N] [--csv FILE] [--markdown FILE] [--device D]",
+       "[--quick] [--seed N] [--cases N] [--markdown FILE] [--device D]",
        "Compares the answers of this project's methods and of others with true distances in quadruple precision, in\n"
        "hard cases. Prints the table of wrong answers (Markdown). Exit status 1 if an answer of\n"
        "this project is wrong.",
@@ -106,8 +103,7 @@ int main(int argc, char** argv)
         {"--cases", "N", "number of cases of each family (default 2048)"},
         {"--proofs", "N", "number of cases of each family that are checked with proofs (balls) too (default: 1 in 32)"},
         {"--family", "TEXT", "only families whose name contains TEXT"},
-        {"--csv", "FILE", "writes the table for scripts/stability_chart"},
-        {"--markdown", "FILE", "writes the table to FILE instead of printing it"},
+        {"--markdown", "FILE", "writes the table to FILE instead of printing it; scripts/stability_chart draws it"},
         {"--device", "D", "auto (default), software, an index, or part of a renderer's name"},
         {"--shaders", "DIR", "a folder of shaders instead of the installed one"}},
        runStability},

@@ -7,23 +7,23 @@ namespace gpu_planning_scene::core::stability
 const std::array<MethodName, MethodCount>& methodNames()
 {
   static const std::array<MethodName, MethodCount> names = {{
-      {"FCL, default (libccd)", "fcl", false},
-      {"FCL, its own GJK", "fcl_own", false},
-      {"float32, no filter", "float32", false},
-      {"Bullet, hulls", "bullet", false},
-      {"oriented boxes (RAPID)", "rapid", false},
-      {"18-DOPs", "dop18", false},
-      {"24-DOPs", "dop24", false},
-      {"box trees", "box_tree", false},
-      {"convex patches", "convex_patches", false},
-      {"RECODE", "recode", false},
-      {"CInDeR", "cinder", false},
-      {"CULLIDE", "cullide", false},
-      {"CULLIDE, fattened", "cullide_fattened", false},
-      {"ours, work queues", "work_queue", true},
-      {"ours, breadth-first", "breadth_first", true},
-      {"ours, exact checker", "exact", true},
-      {"ours, with proofs", "proofs", true},
+      {"FCL, default (libccd)", false},
+      {"FCL, its own GJK", false},
+      {"float32, no filter", false},
+      {"Bullet, hulls", false},
+      {"oriented boxes (RAPID)", false},
+      {"18-DOPs", false},
+      {"24-DOPs", false},
+      {"box trees", false},
+      {"convex patches", false},
+      {"RECODE", false},
+      {"CInDeR", false},
+      {"CULLIDE", false},
+      {"CULLIDE, fattened", false},
+      {"ours, work queues", true},
+      {"ours, breadth-first", true},
+      {"ours, exact checker", true},
+      {"ours, with proofs", true},
   }};
   return names;
 }
@@ -79,23 +79,6 @@ void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& ro
       }
     }
     out << '\n';
-  }
-}
-
-void writeCsv(std::ostream& out, const std::vector<Row>& rows)
-{
-  out << "family,colliding,free,either,undecided,method,title,ours,cases,false_free,false_collision,inconsistent,"
-         "outside\n";
-  for (const Row& row : rows)
-  {
-    for (std::size_t i = 0; i < MethodCount; ++i)
-    {
-      const Cell& cell = row.cells[i];
-      const MethodName& method = methodNames()[i];
-      out << '"' << row.family << "\"," << row.colliding << ',' << row.free << ',' << row.either << ',' << row.undecided
-          << ',' << method.short_name << ",\"" << method.name << "\"," << method.ours << ',' << cell.cases << ','
-          << cell.false_free << ',' << cell.false_collision << ',' << cell.inconsistent << ',' << cell.outside << '\n';
-    }
   }
 }
 }  // namespace gpu_planning_scene::core::stability

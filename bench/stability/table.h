@@ -35,7 +35,6 @@ enum Method : std::size_t
 struct MethodName
 {
   const char* name;  ///< title of the column
-  const char* short_name;
   bool ours;
 };
 const std::array<MethodName, MethodCount>& methodNames();
@@ -72,8 +71,6 @@ struct Run
   std::string device;
 };
 
-/// Writes the conditions of the run, then the table.
+/// Writes the conditions of the run, then the table. scripts/stability_chart draws it.
 void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& rows);
-/// Writes one line per cell.
-void writeCsv(std::ostream& out, const std::vector<Row>& rows);
 }  // namespace gpu_planning_scene::core::stability

@@ -1,7 +1,6 @@
 #include "gpu_planning_scene/planning_scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <utility>

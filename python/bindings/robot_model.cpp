@@ -1,9 +1,7 @@
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <pybind11/stl.h>

@@ -1,6 +1,5 @@
 #include "bindings/shapes.h"
 
-#include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>

@@ -14,7 +14,7 @@ import sys
 import matplotlib
 
 matplotlib.use("svg")
-matplotlib.rcParams["svg.hashsalt"] = "planning"
+matplotlib.rcParams.update({"svg.fonttype": "none", "svg.hashsalt": "planning"})  # texts as letters, not as outlines
 from matplotlib import pyplot  # noqa: E402
 
 COLOURS = {

@@ -1,7 +1,6 @@
 #include "scene/validate_scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string_view>
 #include <unordered_set>
 #include <utility>

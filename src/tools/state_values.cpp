@@ -1,6 +1,5 @@
 #include "tools/state_values.h"
 
-#include <algorithm>
 #include <set>
 #include <sstream>
 

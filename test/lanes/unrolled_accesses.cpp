@@ -1,9 +1,7 @@
 #include "lanes/unrolled_accesses.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <functional>
 #include <map>
 #include <regex>
 #include <set>

@@ -10,30 +10,17 @@
 #include "model/all_joints_robot.h"
 #include "model/model_testing.h"
 #include "scene/frame.h"
+#include "support/pose_goals.h"
 #include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-using Eigen::AngleAxisd;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr std::uint64_t kIkSeed = 42;
-constexpr double kPoseTolerance = 1e-6;  // metres and radians
-
-KinematicConstraints poseOf(int link, const Isometry3d& pose, double orientation_tolerance = kPoseTolerance)
-{
-  return KinematicConstraints::pose(link, Isometry3d::Identity(), pose, kPoseTolerance, orientation_tolerance);
-}
-
-KinematicConstraints positionOf(int link, const Vector3d& position)
-{
-  Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = position;
-  return poseOf(link, pose, M_PI);
-}
 
 /// A chain of joints of one type: link_0 -joint_1-> link_1 ... Each joint is `lengths` metres along x from the last.
 std::shared_ptr<const RobotModel> chainOf(const std::string& type, const std::vector<std::string>& axes, double limit,
@@ -77,13 +64,6 @@ class Kinematic : public testing::Test
   const testing::ScopedTrace trace_{__FILE__, __LINE__, "seed " + std::to_string(kIkSeed)};
 };
 
-void expectPose(const RobotModel& robot, int link, const std::vector<double>& state, const Isometry3d& wanted)
-{
-  const Isometry3d reached = linkPose(robot, link, state.data());
-  EXPECT_LT((reached.translation() - wanted.translation()).norm(), kPoseTolerance);
-  EXPECT_LT(AngleAxisd(wanted.linear().transpose() * reached.linear()).angle(), kPoseTolerance);
-}
-
 void expectWithinLimits(const RobotModel& robot, const std::vector<double>& state)
 {
   for (std::size_t i = 0; i < state.size(); ++i)
@@ -109,7 +89,7 @@ TEST_F(Kinematic, SolvesPosesWithJointsOfAllTypes)
     {
       const int link = robot->linkIndex(name);
       const Isometry3d wanted = linkPose(*robot, link, randomState(*robot).data());
-      const InverseKinematics kinematics(robot, "all", poseOf(link, wanted));
+      const InverseKinematics kinematics(robot, "all", poseGoal(link, wanted));
       const IkSolutions found = kinematics.solve(randomState(*robot).data(), {});
       ASSERT_EQ(found.states.size(), 1u);
       expectPose(*robot, link, found.states[0], wanted);
@@ -126,7 +106,7 @@ TEST_F(Kinematic, SolvesPosesOfAnArmWithSixJoints)
   {
     const Isometry3d wanted = linkPose(*robot, tip, randomState(*robot).data());
     const IkSolutions found =
-        InverseKinematics(robot, "arm", poseOf(tip, wanted)).solve(robot->defaultState().data(), {});
+        InverseKinematics(robot, "arm", poseGoal(tip, wanted)).solve(robot->defaultState().data(), {});
     ASSERT_EQ(found.states.size(), 1u) << "pose " << i;
     expectPose(*robot, tip, found.states[0], wanted);
     expectWithinLimits(*robot, found.states[0]);
@@ -137,7 +117,7 @@ TEST_F(Kinematic, EqualSeedsGiveEqualSolutions)
 {
   const auto robot = sixAxisArm();
   const int tip = tipOf(*robot, robot->group("arm"));
-  const InverseKinematics kinematics(robot, "arm", poseOf(tip, linkPose(*robot, tip, randomState(*robot).data())));
+  const InverseKinematics kinematics(robot, "arm", poseGoal(tip, linkPose(*robot, tip, randomState(*robot).data())));
   const std::vector<double> given = randomState(*robot);
   IkOptions options = manySolutions();
   const IkSolutions first = kinematics.solve(given.data(), options);
@@ -151,7 +131,7 @@ TEST_F(Kinematic, SolutionsDiffer)
 {
   const auto robot = sixAxisArm();
   const int tip = tipOf(*robot, robot->group("arm"));
-  const InverseKinematics kinematics(robot, "arm", poseOf(tip, linkPose(*robot, tip, randomState(*robot).data())));
+  const InverseKinematics kinematics(robot, "arm", poseGoal(tip, linkPose(*robot, tip, randomState(*robot).data())));
   const auto states = kinematics.solve(randomState(*robot).data(), manySolutions()).states;
   EXPECT_GT(states.size(), 3u);
   for (std::size_t i = 0; i < states.size(); ++i)
@@ -172,12 +152,13 @@ TEST_F(Kinematic, BothQuaternionsOfARotationAreOneSolution)
   {
     const Isometry3d wanted = linkPose(*robot, 0, randomState(*robot).data());
     const std::vector<double> given = randomState(*robot);
-    const auto states = InverseKinematics(robot, "all", poseOf(0, wanted)).solve(given.data(), manySolutions()).states;
+    const auto states =
+        InverseKinematics(robot, "all", poseGoal(0, wanted)).solve(given.data(), manySolutions()).states;
     ASSERT_EQ(states.size(), 1u);
     EXPECT_GE(Eigen::Map<const Eigen::Vector4d>(&states[0][3]).dot(Eigen::Map<const Eigen::Vector4d>(&given[3])), 0.0);
     // The numbers of the quaternion may all be 0, as of a state that nobody has set.
     const auto from_zeros =
-        InverseKinematics(robot, "all", poseOf(0, wanted)).solve(std::vector<double>(7, 0.0).data(), {}).states;
+        InverseKinematics(robot, "all", poseGoal(0, wanted)).solve(std::vector<double>(7, 0.0).data(), {}).states;
     ASSERT_EQ(from_zeros.size(), 1u);
     expectPose(*robot, 0, from_zeros[0], wanted);
   }
@@ -187,7 +168,7 @@ TEST_F(Kinematic, RangesOfJointsAreKept)
 {
   const auto robot = planarArm();
   const int tip = robot->linkIndex("tip");
-  KinematicConstraints constraints = positionOf(tip, {1.2, 0.9, 0.0});
+  KinematicConstraints constraints = positionGoal(tip, {1.2, 0.9, 0.0});
   constraints.joints = {{1, -2.8, -0.2}, {2, 0.5, 0.7}};
   const InverseKinematics kinematics(robot, "arm", constraints);
   const auto states = kinematics.solve(std::vector<double>{0.0, 1.0, 0.0}.data(), manySolutions()).states;
@@ -204,7 +185,8 @@ TEST_F(Kinematic, RangesOfJointsAreKept)
 TEST_F(Kinematic, VariablesThatMoveNoConstrainedLinkKeepTheirValuesOrComeIntoTheirRange)
 {
   const auto robot = planarArm();
-  KinematicConstraints constraints = positionOf(robot->linkIndex("link_2"), {0.6, 0.8, 0.0});  // joint_3 comes after it
+  KinematicConstraints constraints =
+      positionGoal(robot->linkIndex("link_2"), {0.6, 0.8, 0.0});  // joint_3 comes after it
   const std::vector<double> given = {0.1, 0.2, 1.5};
   EXPECT_EQ(InverseKinematics(robot, "arm", constraints).solve(given.data(), {}).states.at(0)[2], 1.5);
   constraints.joints = {{2, -1.0, 1.0}};
@@ -218,7 +200,7 @@ TEST_F(Kinematic, AnglesAreNearestToTheGivenState)
   const Isometry3d wanted = linkPose(*robot, tip, std::vector<double>{0.4, -0.8, 0.2}.data());
   const std::vector<double> given = {40.0, -21.0, 3.0};
   for (const std::vector<double>& state :
-       InverseKinematics(robot, "arm", poseOf(tip, wanted)).solve(given.data(), manySolutions()).states)
+       InverseKinematics(robot, "arm", poseGoal(tip, wanted)).solve(given.data(), manySolutions()).states)
   {
     expectPose(*robot, tip, state, wanted);
     for (std::size_t i = 0; i < state.size(); ++i)
@@ -228,7 +210,7 @@ TEST_F(Kinematic, AnglesAreNearestToTheGivenState)
   const auto bounded = planarArm("revolute", 7.0);
   const std::vector<double> turned = {6.5, 6.5, -6.5};
   for (const std::vector<double>& state :
-       InverseKinematics(bounded, "arm", poseOf(tip, wanted)).solve(turned.data(), manySolutions()).states)
+       InverseKinematics(bounded, "arm", poseGoal(tip, wanted)).solve(turned.data(), manySolutions()).states)
   {
     expectWithinLimits(*bounded, state);
     for (std::size_t i = 0; i < state.size(); ++i)
@@ -252,7 +234,7 @@ TEST_F(Kinematic, MimicJointsMoveWithTheirLeader)
     const int link = robot->linkIndex("d");
     const Isometry3d wanted = linkPose(*robot, link, std::vector<double>{lead}.data());
     const std::vector<double> given = {lead + 0.4};
-    const auto states = InverseKinematics(robot, "arm", poseOf(link, wanted)).solve(given.data(), {}).states;
+    const auto states = InverseKinematics(robot, "arm", poseGoal(link, wanted)).solve(given.data(), {}).states;
     ASSERT_EQ(states.size(), 1u);
     EXPECT_NEAR(states[0][0], lead, 1e-5);
   }
@@ -266,7 +248,7 @@ TEST_F(Kinematic, APositionIsEnoughForAnArmWithFewJoints)
   {
     const Vector3d wanted = linkPose(*robot, tip, randomState(*robot).data()).translation();
     const auto states =
-        InverseKinematics(robot, "arm", positionOf(tip, wanted)).solve(robot->defaultState().data(), {}).states;
+        InverseKinematics(robot, "arm", positionGoal(tip, wanted)).solve(robot->defaultState().data(), {}).states;
     ASSERT_EQ(states.size(), 1u);
     EXPECT_LT((linkPose(*robot, tip, states[0].data()).translation() - wanted).norm(), kPoseTolerance);
   }
@@ -291,8 +273,8 @@ TEST_F(Kinematic, TwoLinksAreConstrainedAtOnce)
   for (int i = 0; i < 20; ++i)
   {
     const std::vector<double> state = randomState(*robot);
-    KinematicConstraints both = poseOf(hands[0], linkPose(*robot, hands[0], state.data()));
-    const KinematicConstraints right = poseOf(hands[1], linkPose(*robot, hands[1], state.data()));
+    KinematicConstraints both = poseGoal(hands[0], linkPose(*robot, hands[0], state.data()));
+    const KinematicConstraints right = poseGoal(hands[1], linkPose(*robot, hands[1], state.data()));
     both.positions.push_back(right.positions[0]);
     both.orientations.push_back(right.orientations[0]);
     const auto states = InverseKinematics(robot, "body", both).solve(robot->defaultState().data(), {}).states;
@@ -305,7 +287,7 @@ TEST_F(Kinematic, TwoLinksAreConstrainedAtOnce)
 TEST_F(Kinematic, AnUnreachablePoseGivesTheNearestState)
 {
   const auto robot = planarArm();
-  const InverseKinematics kinematics(robot, "arm", positionOf(robot->linkIndex("tip"), {0.0, 3.5, 0.0}));
+  const InverseKinematics kinematics(robot, "arm", positionGoal(robot->linkIndex("tip"), {0.0, 3.5, 0.0}));
   const IkSolutions found = kinematics.solve(robot->defaultState().data(), {});
   EXPECT_TRUE(found.states.empty());
   EXPECT_EQ(found.attempts, IkOptions().max_attempts);
@@ -322,7 +304,7 @@ TEST_F(Kinematic, AProjectionStaysNear)
   for (int i = 0; i < 50; ++i)
   {
     const std::vector<double> at = randomState(*robot);
-    const InverseKinematics kinematics(robot, "arm", positionOf(tip, linkPose(*robot, tip, at.data()).translation()));
+    const InverseKinematics kinematics(robot, "arm", positionGoal(tip, linkPose(*robot, tip, at.data()).translation()));
     std::vector<double> state = at;
     for (double& value : state)
       value += 0.05;
@@ -341,7 +323,7 @@ TEST_F(Kinematic, AProjectionStaysNear)
 TEST_F(Kinematic, ASearchCanBeStopped)
 {
   const auto robot = planarArm();
-  const InverseKinematics kinematics(robot, "arm", positionOf(robot->linkIndex("tip"), {0.0, 3.5, 0.0}));
+  const InverseKinematics kinematics(robot, "arm", positionGoal(robot->linkIndex("tip"), {0.0, 3.5, 0.0}));
   int calls = 0;
   EXPECT_EQ(kinematics.solve(robot->defaultState().data(), {}, [&] { return ++calls > 3; }).attempts, 3u);
 }
@@ -365,16 +347,16 @@ TEST_F(Kinematic, EachWrongInputHasItsError)
   const int tip = robot->linkIndex("tip");
   const auto fault = [&](const std::string& group, const KinematicConstraints& constraints)
   { return errorOf([&] { InverseKinematics(robot, group, constraints); }); };
-  EXPECT_EQ(fault("legs", positionOf(tip, Vector3d::Zero())), "robot 'test' has no group 'legs'; its groups: arm");
-  EXPECT_EQ(fault("arm", positionOf(0, Vector3d::Zero())), "group 'arm' has no joint that moves link 'link_0'");
-  EXPECT_EQ(fault("arm", positionOf(9, Vector3d::Zero())),
+  EXPECT_EQ(fault("legs", positionGoal(tip, Vector3d::Zero())), "robot 'test' has no group 'legs'; its groups: arm");
+  EXPECT_EQ(fault("arm", positionGoal(0, Vector3d::Zero())), "group 'arm' has no joint that moves link 'link_0'");
+  EXPECT_EQ(fault("arm", positionGoal(9, Vector3d::Zero())),
             "the list of constraints names link 9, which the robot does not have");
   const auto tree = robotOf(armUrdf(), R"(<group name="arm"><joint name="arm_1"/></group>)");
-  KinematicConstraints beyond = positionOf(tree->linkIndex("upper"), Vector3d::Zero());
+  KinematicConstraints beyond = positionGoal(tree->linkIndex("upper"), Vector3d::Zero());
   beyond.joints = {{tree->variableIndex("pan"), 0.0, 1.0}};
   EXPECT_EQ(errorOf([&] { InverseKinematics(tree, "arm", beyond); }),
             "the list of constraints has a range of joint 'pan', which group 'arm' does not move");
-  const InverseKinematics kinematics(robot, "arm", positionOf(tip, Vector3d::Zero()));
+  const InverseKinematics kinematics(robot, "arm", positionGoal(tip, Vector3d::Zero()));
   IkOptions none;
   none.max_attempts = 0;
   EXPECT_EQ(errorOf([&] { kinematics.solve(robot->defaultState().data(), none); }),

@@ -1,9 +1,7 @@
 // Names in a URDF that urdfdom would pass over in silence, so that the robot would lose a shape or stand elsewhere.
 
-#include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <sstream>
 
 #include <gtest/gtest.h>
 

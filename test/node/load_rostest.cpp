@@ -1,7 +1,6 @@
 // The answers of a node that is overloaded, and of a node that is ended while it works.
 
 #include <atomic>
-#include <mutex>
 #include <thread>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -53,18 +52,6 @@ class Load : public RunningNode
     call.request.components.components = PlanningSceneComponents::WORLD_OBJECT_NAMES;
     EXPECT_TRUE(callPersistently(node.service("get_planning_scene"), call));
     return call.response.scene.world.collision_objects.size();
-  }
-
-  template <class Condition>
-  static bool becomes(Condition condition)
-  {
-    for (int i = 0; i < 300; ++i)
-    {
-      if (condition())
-        return true;
-      ros::WallDuration(0.1).sleep();
-    }
-    return false;
   }
 };
 

@@ -21,6 +21,19 @@ PlanningSceneMessage diffScene();
 PlanningSceneMessage diffWith(const CollisionObject& object);
 PlanningSceneMessage diffWith(const AttachedCollisionObject& object);
 
+/// Waits until the condition holds, for 30 s at most.
+template <class Condition>
+bool becomes(const Condition& condition)
+{
+  for (int i = 0; i < 600; ++i)
+  {
+    if (condition())
+      return true;
+    ros::WallDuration(0.05).sleep();
+  }
+  return false;
+}
+
 /// A planning_scene_node that runs beside this program, and the node's robot. Each test begins with a scene without
 /// objects and with the robot in a state that is free of collision.
 class RunningNode : public testing::Test

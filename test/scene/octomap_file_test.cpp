@@ -1,6 +1,5 @@
 // Octomaps in scene files: .bt and .ot files of liboctomap, and MoveIt's message.
 
-#include <fstream>
 #include <sstream>
 
 #include "gpu_planning_scene/error.h"

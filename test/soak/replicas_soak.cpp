@@ -102,15 +102,7 @@ class ReplicasSoak : public RunningNode
         change.robot_state.joint_state.name = {robot->variables()[0].name};
         change.robot_state.joint_state.position = {place(generator)};
       }
-      if (generator() % 10 == 0)
-      {
-        AttachedCollisionObject attached;
-        attached.link_name = tip;
-        attached.object = objectOperation(id, generator() % 2 == 0 ? CollisionObject::ADD : CollisionObject::REMOVE);
-        change.robot_state.attached_collision_objects.push_back(attached);
-      }
-      else
-        change.world.collision_objects.push_back(object);
+      addObject(change, object, tip, generator);
       ApplyPlanningScene call;
       call.request.scene = change;
       if (!callPersistently(name("apply_planning_scene"), call))

@@ -102,15 +102,7 @@ class Soak : public RunningNode
         default:
           break;
       }
-      if (generator() % 10 == 0)
-      {
-        AttachedCollisionObject attached;
-        attached.link_name = tip;
-        attached.object = objectOperation(id, generator() % 2 == 0 ? CollisionObject::ADD : CollisionObject::REMOVE);
-        change.robot_state.attached_collision_objects.push_back(attached);
-      }
-      else
-        change.world.collision_objects.push_back(object);
+      addObject(change, object, tip, generator);
       ApplyPlanningScene apply_change;
       apply_change.request.scene = change;
       if (ask("apply_planning_scene", apply_change))

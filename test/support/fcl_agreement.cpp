@@ -1,6 +1,5 @@
 #include "support/fcl_agreement.h"
 
-#include <algorithm>
 #include <ostream>
 
 #include "collision/bounds/problem_maker.h"

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
-#include <vector>
 
 #include "gpu_planning_scene/error.h"
 #include "support/obstacles.h"

@@ -1,6 +1,5 @@
 #include "support/traversal_cost.h"
 
-#include <cmath>
 #include <random>
 
 #include "collision/geometry/cpu_box_pair.h"

@@ -1,7 +1,6 @@
 #include "literature/convex/surface_patches.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 #include <unordered_map>

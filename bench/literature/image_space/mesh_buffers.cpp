@@ -1,7 +1,6 @@
 #include "literature/image_space/mesh_buffers.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 #include <numeric>
 #include <utility>

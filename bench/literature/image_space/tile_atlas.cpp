@@ -1,7 +1,5 @@
 #include "literature/image_space/tile_atlas.h"
 
-#include <algorithm>
-
 #include <epoxy/gl.h>
 
 #include "gpu/gl_check.h"

@@ -1,7 +1,6 @@
 #include "collision/bounds/state_box.h"
 
 #include <algorithm>
-#include <cmath>
 
 // A body's distance from a joint's axis depends only on the joints between the two. In the centre of the box it is
 // computed. Elsewhere in the box it is larger by at most the length by which these joints move the body on the way from

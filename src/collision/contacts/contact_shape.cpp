@@ -1,7 +1,6 @@
 #include "collision/contacts/contact_shape.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "collision/exact/winding_number.h"

@@ -1,7 +1,6 @@
 #include "collision/contacts/crossings.h"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 #include "collision/geometry/cpu_box_pair.h"

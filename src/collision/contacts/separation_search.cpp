@@ -1,7 +1,6 @@
 #include "collision/contacts/separation_search.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "collision/exact/pair_clearance.h"

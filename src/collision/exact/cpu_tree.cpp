@@ -3,7 +3,6 @@
 #include <iterator>
 #include <mutex>
 #include <unordered_map>
-#include <utility>
 
 #include "collision/exact/binned_sah.h"
 #include "collision/geometry/primitive_solid.h"

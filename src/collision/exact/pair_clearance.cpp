@@ -1,7 +1,6 @@
 #include "collision/exact/pair_clearance.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "collision/geometry/convex_pair.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -1,7 +1,6 @@
 #include "model/inverse_kinematics/descent.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Cholesky>
 

@@ -1,7 +1,6 @@
 #include "model/meshes/collada_geometry.h"
 
 #include <algorithm>
-#include <numeric>
 
 // COLLADA 1.4.1, chapter 5: <mesh>, <source>, <accessor>, <triangles>, <polylist>, <polygons>, <tristrips>, <trifans>.
 namespace gpu_planning_scene::core

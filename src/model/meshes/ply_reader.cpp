@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 #include "gpu_planning_scene/error.h"
 #include "model/meshes/mesh_formats.h"

@@ -1,9 +1,7 @@
 #include "model/solids/free_rims.h"
 
-#include <cstddef>
 #include <map>
 #include <queue>
-#include <utility>
 
 // E. W. Dijkstra: A note on two problems in connexion with graphs. Numerische Mathematik 1, 1959.
 namespace gpu_planning_scene::core

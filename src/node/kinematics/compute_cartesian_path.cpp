@@ -2,7 +2,6 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/cartesian_path.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <string>
 #include <variant>
 
 #include "node/markers/shape_markers.h"

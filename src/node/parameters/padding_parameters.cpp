@@ -1,7 +1,6 @@
 #include "node/parameters/padding_parameters.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "gpu_planning_scene/error.h"
 #include "node/parameters/parameter_values.h"

@@ -1,7 +1,5 @@
 #include "planning/goals/checked_endpoints.h"
 
-#include <algorithm>
-
 #include "collision/bounds/reach.h"
 #include "collision/problem/state_validation.h"
 #include "model/joint_limits.h"

@@ -1,7 +1,6 @@
 #include "gpu_planning_scene/planning/path_shortcutter.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 

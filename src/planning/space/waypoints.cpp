@@ -1,6 +1,5 @@
 #include "planning/space/waypoints.h"
 
-#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Core>

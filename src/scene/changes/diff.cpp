@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <unordered_map>
-#include <unordered_set>
 #include <variant>
 
 #include "gpu_planning_scene/octomap.h"

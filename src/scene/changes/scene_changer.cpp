@@ -1,7 +1,6 @@
 #include "scene/changes/scene_changer.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 #include "scene/frame.h"

@@ -1,8 +1,6 @@
 // The behaviours that MoveIt's tests require of its collision detectors, tested here on robots of Debian and of the
 // shared problems.
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "gpu_planning_scene/batch_checker.h"

@@ -1,6 +1,5 @@
 // Padding and floors from scene files on a real robot. The oracle computes the true distances.
 
-#include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,5 @@
 // The clearance is within a micrometre of the oracle's clearance and never exceeds it.
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "collision/bounds/problem_maker.h"

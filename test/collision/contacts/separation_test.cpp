@@ -3,11 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <functional>
-#include <map>
-#include <optional>
-#include <random>
-#include <set>
 #include <string>
 
 #include <gtest/gtest.h>

@@ -1,6 +1,5 @@
 #include "collision/exact/cpu_traversal.h"
 
-#include <algorithm>
 #include <functional>
 #include <random>
 

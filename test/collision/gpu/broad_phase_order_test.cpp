@@ -1,6 +1,5 @@
 // The order of the broad phase's queries is learned from hits. It contains every checked pair once.
 
-#include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>

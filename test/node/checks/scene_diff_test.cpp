@@ -40,6 +40,19 @@ PlanningSceneMessage diffScene()
   return scene;
 }
 
+/// Attaches a load to the cart.
+PlanningSceneMessage diffThatAttaches()
+{
+  PlanningSceneMessage diff = diffScene();
+  diff.robot_state.attached_collision_objects.resize(1);
+  AttachedCollisionObject& attached = diff.robot_state.attached_collision_objects[0];
+  attached.link_name = "cart";
+  attached.touch_links = {"pole"};
+  attached.object = boxObject("load", {0.3, 0.0, 0.0}, 0.3);
+  attached.object.header.frame_id = "cart";
+  return diff;
+}
+
 /// A scene with its services, as a node has them.
 struct Node
 {
@@ -170,14 +183,7 @@ TEST_F(SceneDiff, ThatRemovesAnObjectHasTheAnswerOfAnAppliedChange)
 
 TEST_F(SceneDiff, OfAnAttachedObjectHasTheAnswerOfAnAppliedChange)
 {
-  PlanningSceneMessage diff = diffScene();
-  diff.robot_state.attached_collision_objects.resize(1);
-  AttachedCollisionObject& attached = diff.robot_state.attached_collision_objects[0];
-  attached.link_name = "cart";
-  attached.touch_links = {"pole"};
-  attached.object = boxObject("load", {0.3, 0.0, 0.0}, 0.3);
-  attached.object.header.frame_id = "cart";
-  EXPECT_NE(unchanged, compare(diff));
+  EXPECT_NE(unchanged, compare(diffThatAttaches()));
 }
 
 TEST_F(SceneDiff, OfPaddingHasTheAnswerOfAnAppliedChange)
@@ -260,13 +266,7 @@ TEST_F(SceneDiff, ThatCannotBeAppliedIsRefusedAndChangesNothing)
 
 TEST_F(SceneDiff, AStartStateBringsItsAttachedObjectsOrKeepsThoseOfTheScene)
 {
-  PlanningSceneMessage attach = diffScene();
-  attach.robot_state.attached_collision_objects.resize(1);
-  AttachedCollisionObject& attached = attach.robot_state.attached_collision_objects[0];
-  attached.link_name = "cart";
-  attached.touch_links = {"pole"};
-  attached.object = boxObject("load", {0.3, 0.0, 0.0}, 0.3);
-  attached.object.header.frame_id = "cart";
+  const PlanningSceneMessage attach = diffThatAttaches();
   CheckTrajectory::Request request;
   request.joint_trajectory.joint_names = {"slide"};
   request.joint_trajectory.points.resize(1);

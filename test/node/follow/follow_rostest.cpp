@@ -1,7 +1,6 @@
 // Nodes that follow a leader, and a client that checks with all of them.
 
 #include <atomic>
-#include <chrono>
 #include <map>
 #include <thread>
 
@@ -63,18 +62,6 @@ class Replicas : public RunningNode
     call.request.components.components = 2 * kForFollowers - 1;
     EXPECT_TRUE(callPersistently(node.service("get_planning_scene"), call));
     return call.response.scene;
-  }
-
-  template <class Condition>
-  static bool becomes(Condition condition)
-  {
-    for (int i = 0; i < 300; ++i)
-    {
-      if (condition())
-        return true;
-      ros::WallDuration(0.05).sleep();
-    }
-    return false;
   }
 
   static bool reaches(const ChildNode& node, std::uint64_t revision)

@@ -1,7 +1,6 @@
 // Changes of the scene by services and joint states. No ROS master is needed.
 
 #include <cmath>
-#include <limits>
 #include <string>
 #include <vector>
 

@@ -25,18 +25,6 @@ class Topics : public RunningNode
     publisher_.publish(message);
   }
 
-  template <class Condition>
-  static bool becomes(Condition condition)
-  {
-    for (int i = 0; i < 200; ++i)
-    {
-      if (condition())
-        return true;
-      ros::WallDuration(0.1).sleep();
-    }
-    return false;
-  }
-
   ros::NodeHandle node_;
   ros::Publisher publisher_;
 };

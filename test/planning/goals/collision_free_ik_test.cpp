@@ -15,6 +15,7 @@
 #include "scene/frame.h"
 #include "support/arms.h"
 #include "support/fcl_agreement.h"
+#include "support/pose_goals.h"
 #include "support/repetitions.h"
 #include "support/seed.h"
 
@@ -24,20 +25,6 @@ namespace
 {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-constexpr double kTolerance = 1e-6;  // metres and radians
-
-KinematicConstraints poseGoal(int link, const Isometry3d& pose, double orientation_tolerance = kTolerance)
-{
-  return KinematicConstraints::pose(link, Isometry3d::Identity(), pose, kTolerance, orientation_tolerance);
-}
-
-KinematicConstraints positionGoal(int link, const Vector3d& position)
-{
-  Isometry3d pose = Isometry3d::Identity();
-  pose.translation() = position;
-  return poseGoal(link, pose, M_PI);
-}
 
 /// The states of a group in which the robot is free. The other variables have the values of `given`.
 std::vector<std::vector<double>> freeStates(const Arm& arm, StateChecker& checker, const std::vector<double>& given,
@@ -66,13 +53,6 @@ std::vector<double> anyFreeState(const RobotModel& robot, StateChecker& checker,
     robot.randomState(generator, base.data(), state.data());
   while (checker.check(state.data(), 1).valid.front() == 0);
   return state;
-}
-
-void expectReached(const Arm& arm, int link, const std::vector<double>& state, const Isometry3d& wanted)
-{
-  const Isometry3d reached = linkPose(*arm.robot, link, state.data());
-  EXPECT_LE((reached.translation() - wanted.translation()).norm(), kTolerance);
-  EXPECT_LE(Eigen::AngleAxisd(wanted.linear().transpose() * reached.linear()).angle(), kTolerance);
 }
 
 void expectLimitsKept(const Arm& arm, const std::vector<double>& given, const std::vector<double>& state)
@@ -118,7 +98,7 @@ TEST(CollisionFreeIk, RealArmsReachThePosesOfFreeStates)
       ASSERT_EQ(results[i].states.size(), 1u);
       EXPECT_EQ(results[i].message, "");
       const std::vector<double>& state = results[i].states.front();
-      expectReached(arm, tip, state, poses[i]);
+      expectPose(*arm.robot, tip, state, poses[i]);
       expectLimitsKept(arm, given, state);
       rows.insert(rows.end(), state.begin(), state.end());
     }
@@ -230,7 +210,7 @@ TEST(CollisionFreeIk, ARedundantArmHasSeveralSolutions)
   EXPECT_TRUE(std::is_sorted(result.distances.begin(), result.distances.end()));
   for (const std::vector<double>& state : result.states)
   {
-    expectReached(*arm, tip, state, wanted);
+    expectPose(*arm->robot, tip, state, wanted);
     EXPECT_EQ(checker.check(state.data(), 1).valid.front(), 1);
   }
   for (std::size_t i = 0; i < result.states.size(); ++i)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // Several searches side by side (also with the thread sanitizer): the first solution ends them all, and an exception of
 // one of them reaches the caller.
 
-#include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <thread>

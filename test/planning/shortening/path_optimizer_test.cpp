@@ -1,6 +1,5 @@
 // Paths become shorter for as long as there is time, also by another way round an obstacle.
 
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <limits>

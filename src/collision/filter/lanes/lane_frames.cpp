@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "collision/filter/lanes/lane_objects.h"
 #include "model/math_constants.h"

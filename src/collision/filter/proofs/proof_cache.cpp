@@ -1,7 +1,6 @@
 #include "collision/filter/proofs/proof_cache.h"
 
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <utility>
 

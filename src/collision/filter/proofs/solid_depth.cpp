@@ -1,7 +1,6 @@
 #include "collision/filter/proofs/solid_depth.h"
 
 #include <algorithm>
-#include <cmath>
 
 // The depth at the centre of a cube bounds the depth of each point of the cube, because two depths differ by at most
 // the distance of their points. Own method.

@@ -1,6 +1,5 @@
 #include "collision/gpu/tree_build/built_trees.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <mutex>
