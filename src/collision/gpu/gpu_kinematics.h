@@ -21,9 +21,8 @@ class GpuKinematics : public PoseSource
   const std::shared_ptr<const RobotModel>& robot() const { return robot_; }
 
   /// Compares the poses of all links in random states with those of the robot model. Returns one line that names the
-  /// first link that is elsewhere, or an empty text. So a driver that
-  /// compiles the robot's shader wrongly is found out. The poses are floats: smaller differences than about 1e-8 are
-  /// not seen. Changes the instances and the states.
+  /// first link that is elsewhere, or an empty text. So a driver that compiles the robot's shader wrongly is found out.
+  /// The poses are floats: smaller differences than about 1e-8 are not seen. Changes the instances and the states.
   std::string findFault();
 
   /// Sets the shape instances to place: the instances of `problem.robot`.
