@@ -77,7 +77,7 @@ std::vector<std::string> namesFrom(py::handle object)
   std::vector<std::string> names;
   if (!py::isinstance<py::list>(object) && !py::isinstance<py::tuple>(object))
     return names;
-  for (const py::handle item : py::reinterpret_borrow<py::sequence>(object))
+  for (const auto& item : py::reinterpret_borrow<py::sequence>(object))
     if (py::isinstance<py::str>(item))
       names.push_back(item.cast<std::string>());
     else

@@ -9,10 +9,10 @@ layout(location = LOCATION_HAS_QUEUES) uniform uint has_queues;  // 0: no pass w
 layout(location = LOCATION_ROOT_PAIR_CAPACITY) uniform uint root_pair_capacity;
 layout(location = LOCATION_ENTRY_CAPACITY) uniform uint entry_capacity;
 
-bool isUnfinished(uint list, uint capacity, uint queue)
+bool isUnfinished(uint list, uint capacity, uint pass_counters)
 {
-  return counters[queue + PASS_NEXT_ENTRY] < lengthOf(list, capacity) ||
-         counters[queue + PASS_ENDED] != counters[list] * QUEUE_INVOCATIONS;
+  return counters[pass_counters + PASS_NEXT_ENTRY] < lengthOf(list, capacity) ||
+         counters[pass_counters + PASS_ENDED] != counters[list] * QUEUE_INVOCATIONS;
 }
 
 void main()

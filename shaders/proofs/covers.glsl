@@ -25,7 +25,7 @@ vec3 placedIn(FrameRows frame, vec3 point)
 
 struct ProofInstance
 {
-  uint at;      // its first texel
+  uint at;  // its first texel
   uint frame;
   bool same_centers;  // each witness is the centre of its outer ball
 };

@@ -3,8 +3,7 @@
 #include "proofs/covers.glsl"
 
 // STATE_HIT, 0 if the pair is apart, or STATE_UNDECIDED if nothing is proven. `to_object`: the frame of the instance in
-// the frame of the object; `cover`, `inner`: see records.glsl. The balls are those from `begin` to
-// `end` - 1.
+// the frame of the object; `cover`, `inner`: see records.glsl. The balls are those from `begin` to `end` - 1.
 uint proveByBalls(ProofInstance instance, ProofObject object, FrameRows to_object, float cover, float inner, uint begin,
                   uint end)
 {

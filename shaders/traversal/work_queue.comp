@@ -33,7 +33,7 @@ layout(local_size_x = QUEUE_INVOCATIONS) in;
 #endif
 layout(location = LOCATION_IN_LIST) uniform uint in_list;
 layout(location = LOCATION_OUT_LIST) uniform uint out_list;
-layout(location = LOCATION_PASS) uniform uint queue;  // place of the counters of this pass
+layout(location = LOCATION_PASS) uniform uint pass_counters;  // the first counter of this pass
 layout(location = LOCATION_ENTRY_CAPACITY) uniform uint entry_capacity;
 layout(location = LOCATION_IN_CAPACITY) uniform uint in_capacity;  // of the list that is read
 layout(location = LOCATION_IS_LAST) uniform uint is_last;          // 1: no further pass follows
@@ -96,7 +96,7 @@ void main()
     }
     if (!walking && !exhausted)
     {
-      const uint at = atomicAdd(counters[queue + PASS_NEXT_ENTRY], 1u);
+      const uint at = atomicAdd(counters[pass_counters + PASS_NEXT_ENTRY], 1u);
       exhausted = at >= entry_count;
       walking = !exhausted;
       const uvec4 entry = texelFetch(entries, int(min(at, entry_count - 1u)));
@@ -186,5 +186,5 @@ void main()
   for (; waiting > 0u; --waiting)
     spill(root_pair_index, memory[waiting - 1u], root_pair.state);
   // This count reveals a device that ends invocations early.
-  atomicAdd(counters[queue + PASS_ENDED], 1u);
+  atomicAdd(counters[pass_counters + PASS_ENDED], 1u);
 }

@@ -132,11 +132,12 @@ std::string shaderFolder()
   if (chosen != nullptr)
     return chosen;
   const std::string installed = installedShaderFolder();
-  for (const std::string& folder : {installed, std::string(GPS_SOURCE_SHADERS)})
-    if (std::filesystem::exists(folder + "/shader_constants.h"))
+  const std::string source = GPS_SOURCE_SHADERS;  // empty in a binary package
+  for (const std::string& folder : {installed, source})
+    if (!folder.empty() && std::filesystem::exists(folder + "/shader_constants.h"))
       return folder;
-  throw Error("the shaders are neither in " + installed +
-              " nor in " GPS_SOURCE_SHADERS "; install the package, or set GPU_PLANNING_SCENE_SHADERS");
+  throw Error("the shaders are not in " + installed + (source.empty() ? "" : ", and not in " + source) +
+              "; install the whole package, or set GPU_PLANNING_SCENE_SHADERS");
 }
 
 std::string readShader(const std::string& folder, const std::string& name)

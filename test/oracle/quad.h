@@ -1,13 +1,19 @@
 #pragma once
 
 #include <array>
+#include <cfloat>
 
 #include <Eigen/Geometry>
 
 namespace gpu_planning_scene::core::oracle
 {
 /// Quadruple precision, 113 bits. The product of two doubles is exact, and so is the sum of doubles of similar size.
+#if defined(__x86_64__)
 __extension__ typedef __float128 Quad;
+#else
+typedef long double Quad;  // on ARM, which has no __float128
+static_assert(LDBL_MANT_DIG == 113, "long double has not quadruple precision here");
+#endif
 
 Quad sqrt(Quad value);
 

@@ -17,6 +17,8 @@ class InstallDependencies(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
         self.calls = self.folder / "calls"
         self.calls.touch()
+        self.root = self.folder / "root"  # of the simulated machine
+        self.os_release("ID=debian")
         self.bin = self.folder / "bin"
         self.bin.mkdir()
         for tool in TOOLS:
@@ -32,6 +34,10 @@ class InstallDependencies(unittest.TestCase):
         path.write_text(f"#!/bin/bash\n{body}\n")
         path.chmod(0o755)
 
+    def os_release(self, text):
+        (self.root / "etc").mkdir(parents=True, exist_ok=True)
+        (self.root / "etc" / "os-release").write_text(text + "\n")
+
     def have(self, installed, known=()):
         """Makes a dpkg-query that reports `installed` as installed and `known` as removed. It fails as
         dpkg-query does for unknown packages."""
@@ -42,7 +48,7 @@ class InstallDependencies(unittest.TestCase):
     def run_script(self):
         return subprocess.run(
             [str(self.bin / "bash"), str(SCRIPTS / "install_dependencies")],
-            env={"PATH": str(self.bin), "TMPDIR": str(self.folder)},
+            env={"PATH": str(self.bin), "TMPDIR": str(self.folder), "GPU_PLANNING_SCENE_TEST_ROOT": str(self.root)},
             capture_output=True,
             text=True,
         )
@@ -108,6 +114,27 @@ class InstallDependencies(unittest.TestCase):
 
     def test_says_so_where_it_is_not_debian(self):
         self.assert_one_line(self.run_script(), "not Debian", "dependencies.txt")
+
+    def test_refuses_on_ubuntu_and_names_the_command_of_rosdep(self):
+        self.have(self.packages[1:])
+        for text in ("ID=ubuntu\nID_LIKE=debian", 'ID=linuxmint\nID_LIKE="ubuntu debian"'):
+            self.os_release(text)
+            self.assert_one_line(self.run_script(), "is Ubuntu", "rosdep install --from-paths src --ignore-src")
+        self.assertEqual(self.calls.read_text(), "")
+
+    def test_refuses_beside_another_ros_1(self):
+        self.have(self.packages[1:])
+        package = self.root / "opt" / "ros" / "one" / "share" / "roscpp" / "package.xml"
+        package.parent.mkdir(parents=True)
+        package.touch()
+        self.assert_one_line(self.run_script(), "/opt/ros/one", "rosdep install --from-paths src --ignore-src")
+        self.assertEqual(self.calls.read_text(), "")
+
+    def test_installs_beside_ros_2(self):
+        self.have(self.packages[1:])
+        (self.root / "opt" / "ros" / "humble" / "share" / "rclcpp").mkdir(parents=True)
+        self.assertEqual(self.run_script().returncode, 0)
+        self.assertIn("install", self.calls.read_text())
 
     def test_leaves_no_file_behind(self):
         self.have(self.packages[1:])

@@ -31,6 +31,8 @@ Shape toShape(const urdf::Geometry& geometry, const RobotModelOptions& options, 
       return meshes.load(options.meshes.resolve(mesh.filename, options.urdf_folder, options.packages),
                          {mesh.scale.x, mesh.scale.y, mesh.scale.z});
     }
+    default:  // the capsule of urdfdom 5, which urdf_names.cpp refuses with the line of the file
+      break;
   }
   throw Error("a collision element has an unknown geometry type");
 }

@@ -97,8 +97,8 @@ std::string meshReaderProgram()
   if (dladdr(reinterpret_cast<const void*>(&meshReaderProgram), &library) != 0)
     installed = (fs::canonical(library.dli_fname).parent_path() / GPS_PROGRAMS_FROM_LIBRARY).lexically_normal();
   std::error_code unreadable;
-  for (const fs::path& folder : {installed, fs::path(GPS_BUILT_PROGRAMS)})
-    if (fs::exists(folder / "read_mesh", unreadable))
+  for (const fs::path& folder : {installed, fs::path(GPS_BUILT_PROGRAMS)})  // the latter is empty in a binary package
+    if (!folder.empty() && fs::exists(folder / "read_mesh", unreadable))
       return (folder / "read_mesh").string();
   throw Error("the program read_mesh, which reads mesh files, is not in " + installed.string() +
               "; install the whole package, or build the target read_mesh");
