@@ -1,6 +1,7 @@
 #include "collision/batch/batch.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace gpu_planning_scene::core
@@ -9,18 +10,21 @@ namespace
 {
 // A core's part: as small as possible without contention for the mutex, and a multiple of the lanes.
 constexpr std::size_t kSmallestCorePart = 32;
-constexpr std::size_t kLargestCorePart = 1024;
 // A part is at most this fraction of a worker's share of the waiting states, so that the last parts are small.
 constexpr std::size_t kPartsAhead = 4;
 constexpr std::size_t kSmallestDevicePart = 1024;  // fewer states keep no device busy
 
+/// The value of BatchResult::valid for a state without an answer.
+constexpr std::uint8_t kNoAnswer = 2;
+
 /// Takes at most `most` states from the beginning of the last range.
-StateRange takeFrom(std::vector<StateRange>& ranges, std::size_t most)
+StateRange takeFrom(std::vector<StateRange>& ranges, std::size_t& count, std::size_t most)
 {
   StateRange& last = ranges.back();
   const StateRange taken{last.begin, std::min(most, last.count)};
   last.begin += taken.count;
   last.count -= taken.count;
+  count -= taken.count;
   if (last.count == 0)
     ranges.pop_back();
   return taken;
@@ -35,33 +39,20 @@ void addRow(std::size_t row, std::vector<StateRange>& ranges)
     ranges.push_back({row, 1});
 }
 
-std::size_t statesOf(const std::vector<StateRange>& ranges)
+void freeUnlessHit(const StateRange& states, std::vector<std::uint8_t>& valid)
 {
-  std::size_t count = 0;
-  for (const StateRange& range : ranges)
-    count += range.count;
-  return count;
+  for (std::size_t i = states.begin; i < states.end(); ++i)
+    valid[i] = valid[i] == kNoAnswer ? 1 : valid[i];
 }
 }  // namespace
 
-Batch::Batch(const StateBatch& asked, std::optional<Margins> margins, std::size_t cores,
-             const std::vector<std::size_t>& for_cores)
-  : asked_(asked), margins_(std::move(margins)), cores_(std::max<std::size_t>(1, cores))
+Batch::Batch(std::size_t count, std::optional<Margins> margins, std::size_t cores)
+  : count_(count), margins_(std::move(margins)), cores_(std::max<std::size_t>(1, cores)), waiting_count_(count)
 {
-  result_.valid.assign(count(), 1);
-  result_.colliding.assign(count(), kNoPair);
-  std::size_t begin = 0;
-  for (const std::size_t row : for_cores)
-  {
-    if (begin < row)
-      waiting_.push_back({begin, row - begin});
-    addRow(row, for_cores_);
-    begin = row + 1;
-  }
-  if (begin < count())
-    waiting_.push_back({begin, count() - begin});
-  std::reverse(waiting_.begin(), waiting_.end());
-  waiting_count_ = count() - for_cores.size();
+  result_.valid.assign(count, kNoAnswer);
+  result_.colliding.assign(count, kNoPair);
+  if (count != 0)
+    waiting_.push_back({0, count});
 }
 
 void Batch::letCoresHelp(bool help)
@@ -74,11 +65,10 @@ std::size_t Batch::available() const
 {
   if (closed_)
     return 0;
-  std::size_t states = statesOf(for_cores_);
   if (!cores_help_)
-    return states;
-  states += waiting_count_;
-  if (states == 0 && hasOwner())
+    return undecided_count_;
+  std::size_t states = undecided_count_ + waiting_count_;
+  if (states == 0)
     for (const DevicePart& part : at_devices_)
       states += part.open_end - part.range.begin;
   return states;
@@ -96,8 +86,6 @@ StateRange Batch::overtake(std::size_t most)
   const auto open = [](const DevicePart& part) { return part.open_end - part.range.begin; };
   const auto longest = std::max_element(at_devices_.begin(), at_devices_.end(),
                                         [&](const DevicePart& a, const DevicePart& b) { return open(a) < open(b); });
-  if (longest == at_devices_.end() || open(*longest) == 0)
-    return {};
   const std::size_t taken = std::min(most, open(*longest));
   longest->open_end -= taken;
   return {longest->open_end, taken};
@@ -110,25 +98,22 @@ StateRange Batch::takeForCore(std::size_t most)
   if (states == 0)
     return {};
   const std::size_t share = states / (kPartsAhead * cores_) / kSmallestCorePart * kSmallestCorePart;
-  most = std::min(most, std::clamp(share, kSmallestCorePart, kLargestCorePart));
-  if (!for_cores_.empty())
-    return takeFrom(for_cores_, most);
-  if (waiting_count_ == 0)
-    return overtake(most);
-  const StateRange taken = takeFrom(waiting_, most);
-  waiting_count_ -= taken.count;
-  return taken;
+  most = std::min(most, std::max(share, kSmallestCorePart));
+  if (undecided_count_ != 0)
+    return takeFrom(undecided_, undecided_count_, most);
+  return waiting_count_ != 0 ? takeFrom(waiting_, waiting_count_, most) : overtake(most);
 }
 
 void Batch::answered(const StateRange& part)
 {
+  freeUnlessHit(part, result_.valid);
   const std::lock_guard<std::mutex> lock(mutex_);
   answered_ += part.count;
   if (answered_ == count())
     changed_.notify_all();
 }
 
-void Batch::waitForCores(std::chrono::steady_clock::time_point time)
+void Batch::waitForCores(Clock::time_point time)
 {
   std::unique_lock<std::mutex> lock(mutex_);
   changed_.wait_until(lock, time, [this] { return closed_ || answered_ == count() || available() != 0; });
@@ -140,8 +125,22 @@ void Batch::join(std::size_t device)
   joined_.push_back(device);
 }
 
+bool Batch::hasJoined(std::size_t device) const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::find(joined_.begin(), joined_.end(), device) != joined_.end();
+}
+
 void Batch::returnParts(std::size_t device)
 {
+  try
+  {
+    waiting_.reserve(waiting_.size() + at_devices_.size());
+  }
+  catch (...)
+  {
+    return end(std::current_exception());
+  }
   const auto is_its = [device](const DevicePart& part) { return part.device == device; };
   for (const DevicePart& part : at_devices_)
     if (is_its(part) && part.open_end > part.range.begin)
@@ -177,10 +176,35 @@ StateRange Batch::takeForDevice(std::size_t device, std::size_t most, double sha
     const auto ahead = static_cast<std::size_t>(share * static_cast<double>(waiting_count_));
     most = std::min(most, std::max(kSmallestDevicePart, ahead));
   }
-  const StateRange taken = takeFrom(waiting_, most);
-  waiting_count_ -= taken.count;
+  // First of all, the memory: a state that is taken and not recorded would be lost.
+  at_devices_.reserve(at_devices_.size() + 1);
+  if (std::none_of(timings_.begin(), timings_.end(), [&](const Timing& timing) { return timing.device == device; }))
+    timings_.push_back({device});
+  const StateRange taken = takeFrom(waiting_, waiting_count_, most);
   at_devices_.push_back({device, taken, taken.end()});
   return taken;
+}
+
+void Batch::noteBrought(std::size_t device, std::size_t states)
+{
+  for (Timing& timing : timings_)
+    if (timing.device == device)
+    {
+      timing.last = Clock::now();
+      if (timing.states == 0)
+        timing.first = timing.last;
+      timing.states += states;
+    }
+}
+
+DevicePace Batch::paceOf(std::size_t device) const
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
+  for (const Timing& timing : timings_)
+    if (timing.device == device)
+      return {timing.states, seconds(timing.first - timing.start), seconds(timing.last - timing.start)};
+  return {};
 }
 
 StateRange Batch::beginAnswer(std::size_t device, const StateRange& part)
@@ -193,6 +217,7 @@ StateRange Batch::beginAnswer(std::size_t device, const StateRange& part)
                    [&](const DevicePart& other) { return other.device == device && other.range.begin == part.begin; });
   if (known == at_devices_.end())
     return {};
+  noteBrought(device, part.count);
   const StateRange states{part.begin, std::max(part.begin, std::min(part.end(), known->open_end)) - part.begin};
   known->range = {part.end(), known->range.end() - part.end()};
   if (known->range.begin >= known->open_end)
@@ -204,12 +229,34 @@ StateRange Batch::beginAnswer(std::size_t device, const StateRange& part)
 
 void Batch::endAnswer(const StateRange& states, const std::vector<std::size_t>& undecided)
 {
+  freeUnlessHit(states, result_.valid);
   const std::lock_guard<std::mutex> lock(mutex_);
-  answered_ += states.count - undecided.size();
-  answered_by_devices_ += states.count - undecided.size();
-  for (const std::size_t row : undecided)
-    addRow(row, for_cores_);
-  result_.undecided_states += undecided.size();
+  std::size_t open = 0;
+  const auto reopen = [&](std::size_t row)
+  {
+    if (result_.valid[row] == kNoAnswer)
+      return;
+    result_.valid[row] = kNoAnswer;
+    result_.colliding[row] = kNoPair;
+    ++open;
+    addRow(row, undecided_);
+  };
+  try
+  {
+    for (const std::size_t row : undecided)
+      reopen(row);
+    for (std::size_t row = states.begin; row < states.end() && !rows_.only_cores.empty(); ++row)
+      if (rows_.only_cores[row] != 0)
+        reopen(row);
+  }
+  catch (...)
+  {
+    end(std::current_exception());
+  }
+  undecided_count_ += open;
+  result_.undecided_states += open;
+  answered_ += states.count - open;
+  answered_by_devices_ += states.count - open;
   --writing_;
   changed_.notify_all();
 }
@@ -226,10 +273,10 @@ GpuWork Batch::work() const
   return work_;
 }
 
-std::size_t Batch::devices() const
+std::size_t Batch::waitingCount() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return joined_.size();
+  return closed_ ? 0 : waiting_count_;
 }
 
 std::size_t Batch::answeredCount() const
@@ -244,12 +291,6 @@ std::size_t Batch::answeredByDevices() const
   return answered_by_devices_;
 }
 
-void Batch::waitForDevices()
-{
-  std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait(lock, [this] { return joined_.empty(); });
-}
-
 void Batch::close()
 {
   std::unique_lock<std::mutex> lock(mutex_);
@@ -258,13 +299,18 @@ void Batch::close()
   changed_.wait(lock, [this] { return writing_ == 0; });
 }
 
-void Batch::fail(std::exception_ptr error)
+void Batch::end(std::exception_ptr error)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
   closed_ = true;
   if (!error_)
     error_ = std::move(error);
   changed_.notify_all();
+}
+
+void Batch::fail(std::exception_ptr error)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  end(std::move(error));
 }
 
 bool Batch::isClosed() const
@@ -273,9 +319,16 @@ bool Batch::isClosed() const
   return closed_;
 }
 
-std::exception_ptr Batch::error() const
+BatchResult Batch::takeResult()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return error_;
+  if (error_)
+    std::rethrow_exception(error_);
+  const bool is_whole =
+      answered_ == count() && std::find(result_.valid.begin(), result_.valid.end(), kNoAnswer) == result_.valid.end();
+  if (!is_whole)
+    throw std::logic_error("a batch has ended with states that have no answer, or have two");
+  result_.device_states = answered_by_devices_;
+  return std::move(result_);
 }
 }  // namespace gpu_planning_scene::core

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -15,27 +16,43 @@
 
 namespace gpu_planning_scene::core
 {
+/// The states of a batch as devices read them.
+struct DeviceRows
+{
+  std::shared_ptr<const void> owner;  ///< keeps the states alive: a device that hangs may read them after the call
+  const double* states = nullptr;
+  /// One per state; 1: only cores can check it, so devices read another state in its place. Empty: devices can check
+  /// all states.
+  std::vector<std::uint8_t> only_cores = {};
+};
+
+/// What a device has done in a batch.
+struct DevicePace
+{
+  std::size_t states = 0;      ///< that it has brought
+  double first_seconds = 0.0;  ///< from its first request for states to its first answer
+  double seconds = 0.0;        ///< from its first request to its last answer
+};
+
 /// A batch of valid states while cores and devices check it. It is cut here, and only here: each worker takes a part
 /// when it is free. The parts of cores are small and those of devices large. All parts become smaller towards the end,
-/// so that all workers end at about the same time. Each state is answered once, whoever takes it. Thread-safe.
+/// so that all workers end at about the same time. Each state is answered once, whoever takes it. A state without an
+/// answer is never free. Thread-safe.
 ///
-/// A part whose device is lost goes back. If the batch has an owner, free cores overtake devices: they take states of
-/// the parts that devices still work on, from the end of a part, and the device's answers for these states are dropped.
-/// So nobody waits for a device that hangs.
+/// A part whose device is lost goes back. If no state waits, free cores overtake devices: they take states of the parts
+/// that devices still work on, from the end of a part, and the device's answers for these states are dropped. So nobody
+/// waits for a device that hangs. If the memory does not suffice, the batch fails.
 ///
 /// Guided self-scheduling: C. Polychronopoulos, D. Kuck (1987).
 class Batch
 {
  public:
-  /// `cores`: their number. `for_cores`: the states that only cores can check, ascending.
-  Batch(const StateBatch& asked, std::optional<Margins> margins, std::size_t cores,
-        const std::vector<std::size_t>& for_cores);
+  /// `cores`: their number.
+  Batch(std::size_t count, std::optional<Margins> margins, std::size_t cores);
 
-  const double* states() const { return asked_.states; }
-  std::size_t count() const { return asked_.count; }
+  std::size_t count() const { return count_; }
   const Margins* margins() const { return margins_ ? &*margins_ : nullptr; }
-  bool hasOwner() const { return asked_.owner != nullptr; }
-  /// Workers write the answers of their parts. The states begin as free.
+  /// Workers write 0 for each state of their parts that collides, and its pair.
   BatchResult& result() { return result_; }
 
   // For cores.
@@ -50,8 +67,12 @@ class Batch
   std::size_t availableForCores() const;
 
   // For devices, which have numbers.
+  /// Must be called before a device joins, once.
+  void setDeviceRows(DeviceRows rows) { rows_ = std::move(rows); }
+  const DeviceRows& deviceRows() const { return rows_; }
   /// No part goes to a device that has not joined, or has left.
   void join(std::size_t device);
+  bool hasJoined(std::size_t device) const;
   /// Its parts go back, because it was lost.
   void giveBack(std::size_t device);
   /// Its parts go back. If no device is left, cores take all states.
@@ -61,27 +82,30 @@ class Batch
   /// Must be called before a device writes the answers of a part, or of its next states in ascending order. Returns the
   /// states that it may write; if there is one, endAnswer must follow.
   StateRange beginAnswer(std::size_t device, const StateRange& part);
-  /// After beginAnswer: its states are answered, except for `undecided` ones, which cores then check.
+  /// After beginAnswer: its states are answered, except for `undecided` ones and those that only cores can check.
+  /// Cores then check these. Needs no memory outside the batch.
   void endAnswer(const StateRange& states, const std::vector<std::size_t>& undecided);
   void add(const GpuWork& work);
   GpuWork work() const;
 
-  /// The number of joined devices that have not left.
-  std::size_t devices() const;
+  /// The number of states that no worker has taken.
+  std::size_t waitingCount() const;
   std::size_t answeredCount() const;
   std::size_t answeredByDevices() const;
-  /// Waits until no device is left.
-  void waitForDevices();
+  /// What the device has done up to now.
+  DevicePace paceOf(std::size_t device) const;
   bool isComplete() const { return answeredCount() == count(); }
   /// Ends the batch: no further part is taken, and no device writes answers. Waits for devices that are writing.
   void close();
   /// Closes the batch because of an error. The first error counts.
   void fail(std::exception_ptr error);
   bool isClosed() const;
-  /// The error of fail; null: none.
-  std::exception_ptr error() const;
+  /// The result of a closed batch. Throws the error of fail, or std::logic_error if a state has no answer.
+  BatchResult takeResult();
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   /// A part that a device works on. Cores have taken the states from `open_end` on.
   struct DevicePart
   {
@@ -89,24 +113,37 @@ class Batch
     StateRange range;
     std::size_t open_end;
   };
+  struct Timing
+  {
+    std::size_t device;
+    std::size_t states = 0;
+    Clock::time_point start = Clock::now();
+    Clock::time_point first = start;
+    Clock::time_point last = start;
+  };
 
   // The caller of these functions holds mutex_.
   std::size_t available() const;
   StateRange overtake(std::size_t most);
   void returnParts(std::size_t device);
+  void end(std::exception_ptr error);
+  void noteBrought(std::size_t device, std::size_t states);
 
-  const StateBatch asked_;
+  const std::size_t count_;
   const std::optional<Margins> margins_;
   const std::size_t cores_;
+  DeviceRows rows_;
   BatchResult result_;
 
   mutable std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
-  std::vector<StateRange> waiting_;    // for anybody; the next one last
-  std::vector<StateRange> for_cores_;  // for cores only
-  std::size_t waiting_count_ = 0;      // states of waiting_
+  std::vector<StateRange> waiting_;  // for anybody; the next one last
+  std::size_t waiting_count_;        // states of waiting_
+  std::vector<StateRange> undecided_;
+  std::size_t undecided_count_ = 0;  // states of undecided_
   std::vector<DevicePart> at_devices_;
   std::vector<std::size_t> joined_;
+  std::vector<Timing> timings_;
   std::size_t answered_ = 0;
   std::size_t answered_by_devices_ = 0;
   std::size_t writing_ = 0;  // devices between beginAnswer and endAnswer

@@ -15,6 +15,7 @@
 
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/error.h"
+#include "model/finally.h"
 
 namespace gpu_planning_scene::core
 {
@@ -22,18 +23,13 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-constexpr double kLongestLimit = 1e8;        // seconds; longer times would overflow the clock's type
-constexpr int kAttempts = 2;                 // for a batch or a scene, if the device is lost
-constexpr std::size_t kLeastForRate = 1024;  // states
+constexpr double kLongestLimit = 1e8;               // seconds; longer times would overflow the clock's type
+constexpr std::chrono::milliseconds kPatience{20};  // a hanging device is noticed this much later
+constexpr int kAttempts = 2;                        // for a batch or a scene, if the device is lost
 
 Clock::duration duration(double seconds)
 {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, kLongestLimit)));
-}
-
-double secondsBetween(Clock::time_point from, Clock::time_point to)
-{
-  return std::chrono::duration<double>(to - from).count();
 }
 
 /// Trees are built within a call, so large scenes have more time.
@@ -51,7 +47,10 @@ struct DeviceWorker::Shared
 {
   using Job = std::function<void(Shared&)>;
 
-  Shared(Open the_open, const DeviceLimits& the_limits) : open_device(std::move(the_open)), limits(the_limits) {}
+  Shared(Open the_open, const DeviceLimits& the_limits)
+    : open_device(std::move(the_open)), limits(the_limits), limit_seconds(the_limits.device_seconds)
+  {
+  }
 
   void serve();
   void prepare(const DeviceTask& task);
@@ -75,11 +74,11 @@ struct DeviceWorker::Shared
   bool is_busy = false;
   bool is_stopping = false;
   bool is_abandoned = false;
-  std::weak_ptr<Batch> batch;      // of the running job
-  std::size_t number = 0;          // in this batch
-  bool has_borrowed_rows = false;  // the batch has no owner
+  bool is_finished = false;    // the thread no longer needs the device
+  std::weak_ptr<Batch> batch;  // of the running job
+  std::size_t number = 0;      // in this batch
   Clock::time_point progress;
-  double limit_seconds = 0.0;  // of the running job
+  double limit_seconds;  // of the running job
   Clock::time_point retry = Clock::time_point::min();
   std::deque<Clock::time_point> losses;
   bool was_open = false;
@@ -87,8 +86,6 @@ struct DeviceWorker::Shared
   std::string name;
   bool is_software = true;
   std::string fault;
-  double rate = 0.0;
-  double latency = 0.0;
   std::thread thread;
 };
 
@@ -102,14 +99,28 @@ void DeviceWorker::Shared::serve()
       break;
     Job taken = std::exchange(job, nullptr);
     lock.unlock();
-    taken(*this);
+    try
+    {
+      taken(*this);
+    }
+    catch (const std::exception&)
+    {
+      // No memory to note an error. The parts of the device have gone back.
+    }
     taken = nullptr;  // destroys the job's objects on this thread
     lock.lock();
     is_busy = false;
     ended.notify_all();
   }
+  // The driver may hang here too.
+  is_busy = true;
+  progress = Clock::now();
   lock.unlock();
   device.reset();
+  lock.lock();
+  is_busy = false;
+  is_finished = true;
+  ended.notify_all();
 }
 
 bool DeviceWorker::Shared::isAbandoned()
@@ -169,30 +180,13 @@ void DeviceWorker::Shared::checkParts(Batch& its_batch, const DeviceTask& task, 
                                       const BatchDevice::Take& take)
 {
   prepare(task);
-  const Clock::time_point start = Clock::now();
-  Clock::time_point first_end = start;
-  std::size_t states = 0;
-  std::size_t parts = 0;
-  const BatchDevice::Take counted = [&](std::size_t most)
+  const BatchDevice::Take noted = [&](std::size_t most)
   {
     noteProgress();
-    // A device takes two parts ahead, so at the third, the first one is answered.
-    if (++parts == 3)
-      first_end = Clock::now();
-    const StateRange part = take(most);
-    states += part.count;
-    return part;
+    return take(most);
   };
-  device->check(its_batch, its_number, counted);
-  const Clock::time_point end = Clock::now();
+  device->check(its_batch, its_number, noted);
   noteStatus();
-  const std::lock_guard<std::mutex> lock(mutex);
-  const double seconds = secondsBetween(start, end);
-  const double first = parts >= 3 && first_end != start ? secondsBetween(start, first_end) : seconds;
-  if (states != 0)
-    latency = latency == 0.0 ? first : std::min(latency, first);
-  if (states >= kLeastForRate && seconds > 0.0)
-    rate = static_cast<double>(states) / seconds;
 }
 
 void DeviceWorker::Shared::dropDevice()
@@ -254,16 +248,20 @@ DeviceWorker::DeviceWorker(Open open, const DeviceLimits& limits)
 
 DeviceWorker::~DeviceWorker()
 {
-  {
-    const std::lock_guard<std::mutex> lock(shared_->mutex);
-    shared_->is_stopping = true;
-    if (shared_->is_abandoned)
-      return;
-  }
+  std::unique_lock<std::mutex> lock(shared_->mutex);
+  shared_->is_stopping = true;
   shared_->wake.notify_one();
-  wait();
-  if (shared_->thread.joinable())
-    shared_->thread.join();
+  while (!shared_->is_finished && !shared_->is_abandoned)
+  {
+    shared_->ended.wait_for(lock, kPatience);
+    lock.unlock();
+    abandonIfOverdue();
+    lock.lock();
+  }
+  if (shared_->is_abandoned)
+    return;
+  lock.unlock();
+  shared_->thread.join();
 }
 
 void DeviceWorker::wait()
@@ -271,8 +269,7 @@ void DeviceWorker::wait()
   do
   {
     std::unique_lock<std::mutex> lock(shared_->mutex);
-    if (shared_->ended.wait_for(lock, std::chrono::milliseconds(20),
-                                [this] { return !shared_->is_busy || shared_->is_abandoned; }))
+    if (shared_->ended.wait_for(lock, kPatience, [this] { return !shared_->is_busy || shared_->is_abandoned; }))
       return;
   } while (!abandonIfOverdue());
 }
@@ -290,7 +287,6 @@ bool DeviceWorker::begin(Shared::Job job, const DeviceTask& task, const std::sha
   shared_->is_busy = true;
   shared_->batch = batch;
   shared_->number = number;
-  shared_->has_borrowed_rows = batch && !batch->hasOwner();
   shared_->progress = Clock::now();
   shared_->limit_seconds = limit;
   shared_->wake.notify_one();
@@ -363,19 +359,13 @@ bool DeviceWorker::isFree() const
   return !shared_->is_busy && !shared_->is_abandoned && Clock::now() >= shared_->retry;
 }
 
-bool DeviceWorker::start(const std::shared_ptr<Batch>& batch, const DeviceTask& task, std::size_t device, double share,
-                         std::size_t most, std::size_t rounds)
+bool DeviceWorker::start(const std::shared_ptr<Batch>& batch, const DeviceTask& task, std::size_t device, double share)
 {
   return begin(
-      [batch, task, device, share, most, rounds](Shared& shared)
+      [batch, task, device, share](Shared& shared)
       {
-        std::size_t taken = 0;
-        const BatchDevice::Take take = [&](std::size_t wanted)
-        {
-          if (rounds != 0 && taken++ >= rounds)
-            return StateRange();
-          return batch->takeForDevice(device, std::min(wanted, most), share);
-        };
+        const Finally leave([&] { batch->leave(device); });
+        const BatchDevice::Take take = [&](std::size_t most) { return batch->takeForDevice(device, most, share); };
         runTolerantly(
             shared,
             [&]
@@ -390,19 +380,17 @@ bool DeviceWorker::start(const std::shared_ptr<Batch>& batch, const DeviceTask& 
                 throw;
               }
             });
-        batch->leave(device);
       },
       task, batch, device, true);
 }
 
-/// The thread then owns what the device uses. It must not have borrowed rows: their owner may free them.
+/// The thread then owns what the device uses.
 bool DeviceWorker::abandonIfOverdue()
 {
   std::shared_ptr<Batch> batch;
   {
     const std::lock_guard<std::mutex> lock(shared_->mutex);
-    if (!shared_->is_busy || shared_->is_abandoned || shared_->has_borrowed_rows ||
-        !std::isfinite(shared_->limits.device_seconds) ||
+    if (!shared_->is_busy || shared_->is_abandoned || !std::isfinite(shared_->limits.device_seconds) ||
         Clock::now() - shared_->progress <= duration(shared_->limit_seconds))
       return false;
     std::ostringstream message;
@@ -421,24 +409,6 @@ bool DeviceWorker::abandonIfOverdue()
   if (batch)
     batch->leave(shared_->number);
   return true;
-}
-
-double DeviceWorker::rate() const
-{
-  const std::lock_guard<std::mutex> lock(shared_->mutex);
-  return shared_->rate;
-}
-
-double DeviceWorker::latency() const
-{
-  const std::lock_guard<std::mutex> lock(shared_->mutex);
-  return shared_->latency;
-}
-
-void DeviceWorker::forgetRate()
-{
-  const std::lock_guard<std::mutex> lock(shared_->mutex);
-  shared_->rate = shared_->latency = 0.0;
 }
 
 std::string DeviceWorker::name() const

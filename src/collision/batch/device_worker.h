@@ -22,7 +22,7 @@ class DeviceWorker
 
   /// `open` is called on the worker's thread.
   DeviceWorker(Open open, const DeviceLimits& limits);
-  /// Waits for the thread, unless it was abandoned.
+  /// Waits for the thread, unless it was abandoned or is overdue.
   ~DeviceWorker();
   DeviceWorker(const DeviceWorker&) = delete;
   DeviceWorker& operator=(const DeviceWorker&) = delete;
@@ -39,20 +39,12 @@ class DeviceWorker
   /// Whether the worker could start now: its thread waits, and no rest after losses is due.
   bool isFree() const;
 
-  /// Joins the batch under the number `device`, and begins to take parts: each at most `most` states and at most
-  /// `share` of the waiting ones. If `rounds` is not 0, it takes this many parts only. Returns false, and does not
-  /// join, if the worker is not free.
-  bool start(const std::shared_ptr<Batch>& batch, const DeviceTask& task, std::size_t device, double share,
-             std::size_t most, std::size_t rounds);
+  /// Joins the batch under the number `device`, and begins to take parts: each at most `share` of the waiting states.
+  /// The batch must have its DeviceRows. Returns false, and does not join, if the worker is not free.
+  bool start(const std::shared_ptr<Batch>& batch, const DeviceTask& task, std::size_t device, double share);
 
   /// Abandons the device if it works and has not made progress for longer than its limit. Returns whether it did.
   bool abandonIfOverdue();
-
-  /// States per second in the last batches, and the seconds that the first part of a batch takes at least; 0: not
-  /// known. forgetRate: the next batches differ.
-  double rate() const;
-  double latency() const;
-  void forgetRate();
 
   std::string name() const;
   /// True until the device has been opened.

@@ -21,10 +21,11 @@ class GpuParts : public PartSource
   StateRange take(std::size_t most) override { return take_(most); }
   void bring(const StateRange& part, const std::uint32_t* verdicts) override
   {
+    undecided_.clear();
+    undecided_.reserve(part.count);  // now, because nothing may fail after beginAnswer
     const StateRange states = batch_.beginAnswer(device_, part);
     if (states.count == 0)
       return;
-    undecided_.clear();
     BatchResult& result = batch_.result();
     for (std::size_t i = 0; i < states.count; ++i)
       if (isHit(verdicts[i]))
@@ -70,7 +71,7 @@ class GpuDevice : public BatchDevice
   void check(Batch& batch, std::size_t device, const Take& take) override
   {
     GpuParts parts(checker_, batch, device, take);
-    checker_.check(batch.states(), parts, batch.margins());
+    checker_.check(batch.deviceRows().states, parts, batch.margins());
     batch.add(checker_.lastWork());
   }
 

@@ -256,6 +256,8 @@ void CpuScene::Core::checkRow(const double* state, std::size_t row, const Margin
 /// The traversal of all pairs, for states for which the problem is not valid.
 const CpuTraversal& CpuScene::Core::outside()
 {
+  if (outside_)
+    return *outside_;
   const std::lock_guard<std::mutex> lock(scene_.mutex_);
   if (!group_->outside)
   {
@@ -265,6 +267,7 @@ const CpuTraversal& CpuScene::Core::outside()
         std::make_shared<const CollisionProblem>(ProblemMaker(options).make(*scene_.scene_, name_, nullptr));
     group_->outside = scene_.forest_outside_.traversalOf(problem);
   }
-  return *group_->outside;
+  outside_ = group_->outside.get();
+  return *outside_;
 }
 }  // namespace gpu_planning_scene::core

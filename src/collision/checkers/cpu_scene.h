@@ -70,8 +70,8 @@ class CpuScene
     Core(const Core&) = delete;
     Core& operator=(const Core&) = delete;
 
-    /// Sets the rows of `part` in the result, which must be initialised as free. `states`, `margins`: of the whole
-    /// batch. All states are allowed, also those for which `problem` is not valid.
+    /// For each state of `part` that collides, sets `valid` to 0, and its pair; leaves the other states as they are.
+    /// `states`, `margins`: of the whole batch. All states are allowed, also those for which `problem` is not valid.
     void check(const double* states, const StateRange& part, const Margins* margins, BatchResult& result);
 
    private:
@@ -83,6 +83,7 @@ class CpuScene
     CpuScene& scene_;
     const std::string name_;
     Group* group_ = nullptr;
+    const CpuTraversal* outside_ = nullptr;  // null: not needed yet
     std::unique_ptr<Scratch> scratch_;
   };
 

@@ -20,29 +20,29 @@ constexpr std::size_t kAny = 1'000'000;
 class BatchParts : public testing::Test
 {
  protected:
-  std::shared_ptr<Batch> batchOf(std::size_t count, bool has_owner, const std::vector<std::size_t>& for_cores = {},
-                                 std::size_t cores = 2)
+  static std::shared_ptr<Batch> batchOf(std::size_t count, const std::vector<std::size_t>& only_cores = {},
+                                        std::size_t cores = 2)
   {
-    states_.assign(count, 0.0);
-    StateBatch asked{states_.data(), count};
-    if (has_owner)
-      asked.owner = std::make_shared<int>(1);
-    return std::make_shared<Batch>(asked, std::nullopt, cores, for_cores);
+    const auto batch = std::make_shared<Batch>(count, std::nullopt, cores);
+    DeviceRows rows;
+    rows.only_cores.assign(only_cores.empty() ? 0 : count, 0);
+    for (const std::size_t row : only_cores)
+      rows.only_cores[row] = 1;
+    batch->setDeviceRows(std::move(rows));
+    return batch;
   }
-
-  std::vector<double> states_;
 };
 
 TEST_F(BatchParts, OfCoresAreSmallAndBecomeSmaller)
 {
-  const auto batch = batchOf(10'000, false);
+  const auto batch = batchOf(10'000);
   std::size_t last = kAny;
   std::size_t next = 0;
   for (StateRange part = batch->takeForCore(kAny); part.count != 0; part = batch->takeForCore(kAny))
   {
     EXPECT_EQ(part.begin, next);
     EXPECT_LE(part.count, last);
-    EXPECT_LE(part.count, 1024U);
+    EXPECT_LE(part.count, 1'250U) << "an eighth, as there are two cores";
     last = part.count;
     next = part.end();
     batch->answered(part);
@@ -54,7 +54,7 @@ TEST_F(BatchParts, OfCoresAreSmallAndBecomeSmaller)
 
 TEST_F(BatchParts, OfDevicesHaveTheirShareOfWhatWaits)
 {
-  const auto batch = batchOf(100'000, false);
+  const auto batch = batchOf(100'000);
   EXPECT_EQ(batch->takeForDevice(7, kAny, 0.5).count, 0U) << "before it has joined";
   batch->join(7);
   EXPECT_EQ(batch->takeForDevice(7, kAny, 0.5).count, 50'000U);
@@ -64,26 +64,51 @@ TEST_F(BatchParts, OfDevicesHaveTheirShareOfWhatWaits)
   EXPECT_EQ(batch->takeForDevice(7, kAny, 0.1).count, 42'300U) << "nobody else works";
 }
 
-TEST_F(BatchParts, ThatOnlyCoresCanCheckNeverGoToADevice)
+TEST_F(BatchParts, OfACoreHaveAtMostAsManyStatesAsItWants)
 {
-  const auto batch = batchOf(10, false, {0, 3, 4, 9});
+  EXPECT_EQ(batchOf(10'000)->takeForCore(8).count, 8U);
+}
+
+TEST_F(BatchParts, ThatOnlyCoresCanCheckHaveNoAnswerOfADevice)
+{
+  const auto batch = batchOf(10, {0, 3, 4, 9});
   batch->join(1);
   batch->letCoresHelp(false);
-  std::vector<int> taken(10, 0);
-  for (StateRange part = batch->takeForDevice(1, kAny, 1.0); part.count != 0; part = batch->takeForDevice(1, kAny, 1.0))
-    for (std::size_t i = part.begin; i < part.end(); ++i)
-      ++taken[i];
-  EXPECT_EQ(taken, (std::vector<int>{0, 1, 1, 0, 0, 1, 1, 1, 1, 0}));
-  EXPECT_EQ(batch->availableForCores(), 4U);
-  for (StateRange part = batch->takeForCore(kAny); part.count != 0; part = batch->takeForCore(kAny))
-    for (std::size_t i = part.begin; i < part.end(); ++i)
-      ++taken[i];
-  EXPECT_EQ(taken, std::vector<int>(10, 1));
+  const StateRange part = batch->takeForDevice(1, kAny, 1.0);
+  const StateRange mine = batch->beginAnswer(1, part);
+  ASSERT_EQ(mine.count, 10U);
+  batch->result().valid[3] = 0;
+  batch->result().colliding[3] = {1, 2};
+  batch->endAnswer(mine, {4, 5});
+  EXPECT_EQ(batch->answeredCount(), 5U);
+  std::vector<int> by_cores(10, 0);
+  for (StateRange own = batch->takeForCore(kAny); own.count != 0; own = batch->takeForCore(kAny))
+  {
+    for (std::size_t i = own.begin; i < own.end(); ++i)
+      ++by_cores[i];
+    batch->answered(own);
+  }
+  EXPECT_EQ(by_cores, (std::vector<int>{1, 0, 0, 1, 1, 1, 0, 0, 0, 1}));
+  const BatchResult result = batch->takeResult();
+  EXPECT_EQ(result.valid, std::vector<std::uint8_t>(10, 1));
+  EXPECT_EQ(result.colliding, std::vector<BodyPair>(10, kNoPair));
+  EXPECT_EQ(result.device_states, 5U);
+}
+
+TEST_F(BatchParts, WithoutAnAnswerAreNeverFree)
+{
+  const auto batch = batchOf(100);
+  batch->answered(batch->takeForCore(kAny));
+  batch->answered({0, 32});
+  batch->answered({0, 36});
+  EXPECT_TRUE(batch->isComplete()) << "by its count, although states have no answer";
+  batch->close();
+  EXPECT_THROW(batch->takeResult(), std::logic_error);
 }
 
 TEST_F(BatchParts, ThatADeviceLeavesUndecidedGoToTheCores)
 {
-  const auto batch = batchOf(10, false);
+  const auto batch = batchOf(10);
   batch->join(1);
   batch->letCoresHelp(false);
   const StateRange part = batch->takeForDevice(1, kAny, 1.0);
@@ -104,7 +129,7 @@ TEST_F(BatchParts, ThatADeviceLeavesUndecidedGoToTheCores)
 
 TEST_F(BatchParts, OfALostDeviceGoBackAndItsLateAnswersDoNotCount)
 {
-  const auto batch = batchOf(1'000, false);
+  const auto batch = batchOf(1'000);
   batch->join(1);
   batch->letCoresHelp(false);
   const StateRange part = batch->takeForDevice(1, 600, 1.0);
@@ -117,31 +142,27 @@ TEST_F(BatchParts, OfALostDeviceGoBackAndItsLateAnswersDoNotCount)
   EXPECT_EQ(batch->takeForDevice(1, kAny, 1.0).count, 0U);
 }
 
-TEST_F(BatchParts, AreOvertakenOnlyIfTheBatchHasAnOwner)
+TEST_F(BatchParts, AreOvertakenFromTheirEndIfNoStateWaits)
 {
-  for (const bool has_owner : {false, true})
-  {
-    const auto batch = batchOf(100, has_owner);
-    batch->join(1);
-    const StateRange part = batch->takeForDevice(1, kAny, 1.0);
-    ASSERT_EQ(part.count, 100U);
-    const StateRange overtaken = batch->takeForCore(kAny);
-    EXPECT_EQ(overtaken.count, has_owner ? 32U : 0U);
-    if (!has_owner)
-      continue;
-    EXPECT_EQ(overtaken.end(), 100U) << "from the end";
-    batch->answered(overtaken);
-    const StateRange mine = batch->beginAnswer(1, part);
-    EXPECT_EQ(mine.begin, 0U);
-    EXPECT_EQ(mine.count, 68U);
-    batch->endAnswer(mine, {});
-    EXPECT_TRUE(batch->isComplete());
-  }
+  const auto batch = batchOf(100);
+  batch->join(1);
+  const StateRange part = batch->takeForDevice(1, kAny, 1.0);
+  ASSERT_EQ(part.count, 100U);
+  const StateRange overtaken = batch->takeForCore(kAny);
+  EXPECT_EQ(overtaken.count, 32U);
+  EXPECT_EQ(overtaken.end(), 100U);
+  batch->answered(overtaken);
+  const StateRange mine = batch->beginAnswer(1, part);
+  EXPECT_EQ(mine.begin, 0U);
+  EXPECT_EQ(mine.count, 68U);
+  batch->endAnswer(mine, {});
+  EXPECT_TRUE(batch->isComplete());
+  EXPECT_EQ(batch->paceOf(1).states, 100U) << "all that the device did";
 }
 
 TEST_F(BatchParts, ThatWereOvertakenWhollyNeedNoEndOfTheirAnswer)
 {
-  const auto batch = batchOf(100, true);
+  const auto batch = batchOf(100);
   batch->join(1);
   const StateRange part = batch->takeForDevice(1, kAny, 1.0);
   for (StateRange own = batch->takeForCore(kAny); own.count != 0; own = batch->takeForCore(kAny))
@@ -153,7 +174,7 @@ TEST_F(BatchParts, ThatWereOvertakenWhollyNeedNoEndOfTheirAnswer)
 
 TEST_F(BatchParts, OfAClosedBatchAreNeitherTakenNorAnswered)
 {
-  const auto batch = batchOf(1'000, true);
+  const auto batch = batchOf(1'000);
   batch->join(1);
   const StateRange part = batch->takeForDevice(1, 500, 1.0);
   batch->close();
@@ -167,12 +188,12 @@ TEST_F(BatchParts, AreEachAnsweredOnce)
 {
   for (std::uint64_t seed = kSeed; seed < kSeed + 20; ++seed)
   {
-    std::vector<std::size_t> for_cores;
+    std::vector<std::size_t> only_cores;
     std::mt19937_64 random(seed);
     for (std::size_t i = 0; i < 20'000; ++i)
       if (random() % 50 == 0)
-        for_cores.push_back(i);
-    const auto batch = batchOf(20'000, seed % 2 == 0, for_cores, 4);
+        only_cores.push_back(i);
+    const auto batch = batchOf(20'000, only_cores, 4);
     std::vector<std::atomic<int>> answers(20'000);
     for (std::size_t device = 0; device < 2; ++device)
       batch->join(device);
@@ -192,7 +213,7 @@ TEST_F(BatchParts, AreEachAnsweredOnce)
         for (std::size_t i = mine.begin; i < mine.end(); ++i)
           if (own() % 100 == 0)
             undecided.push_back(i);
-          else
+          else if (batch->deviceRows().only_cores[i] == 0)
             ++answers[i];
         if (mine.count != 0)
           batch->endAnswer(mine, undecided);

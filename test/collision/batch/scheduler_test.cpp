@@ -1,12 +1,13 @@
 // Cores and devices answer a batch together. A device that fails neither loses nor changes an answer.
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <future>
 #include <limits>
-#include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -71,6 +72,22 @@ class SchedulerTest : public testing::Test
     return result;
   }
 
+  /// Waits until the device is destroyed, for at most 10 s.
+  bool isGone() const
+  {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+    while (std::chrono::steady_clock::now() < deadline)
+    {
+      {
+        const std::lock_guard<std::mutex> lock(device_->mutex);
+        if (device_->alive == 0)
+          return true;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+    return false;
+  }
+
   void restTime() const { std::this_thread::sleep_for(std::chrono::duration<double>(1.2 * limits_.retry_seconds)); }
 
   static constexpr std::size_t kCount = 30'000;
@@ -108,17 +125,36 @@ TEST_F(SchedulerTest, CoresAndDevicesShareALargeBatchButNoSmallOne)
   EXPECT_EQ(by_devices, device_->states + second->states);
 }
 
-TEST_F(SchedulerTest, ASoftwareDeviceWorksOnlyIfItIsFasterThanTheCores)
+TEST_F(SchedulerTest, ASoftwareDeviceDoesNotCompeteWithTheCores)
+{
+  device_->is_software = true;
+  EXPECT_EQ(expectRight(kCount).device_states, kCount) << "no core may check";
+  device_only_ = false;
+  scheduler_.reset();
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(expectRight(kMany).device_states, 0U);
+}
+
+TEST_F(SchedulerTest, ADeviceThatIsBusyAtFirstJoinsLater)
 {
   device_only_ = false;
-  device_->is_software = true;
-  device_->part_size = 100'000;
-  device_->parts.assign(10, [] { std::this_thread::sleep_for(std::chrono::milliseconds(300)); });
-  options_.reductions.proofs = false;  // better proofs would make it measure again
-  EXPECT_EQ(expectRight(kMany).device_states, 0U) << "the rate of the cores is not known";
-  EXPECT_GT(expectRight(kMany).device_states, 0U) << "its rate is measured";
-  for (int i = 0; i < 3; ++i)
-    EXPECT_EQ(expectRight(kMany).device_states, 0U) << "it is slow";
+  scheduler();
+  const auto gate = std::make_shared<std::promise<void>>();
+  device_->prepares = {[gate] { gate->get_future().wait(); }};
+  scheduler().setScene(cartScene(-1.0, 2));
+  const auto states = std::make_shared<std::vector<double>>(cartStates(20'000'000));
+  StateBatch batch{states->data(), states->size()};
+  batch.owner = states;
+  bool is_open = false;
+  batch.go_on = [&](std::size_t /*answered*/)
+  {
+    if (!std::exchange(is_open, true))
+      gate->set_value();
+    return true;
+  };
+  const BatchResult result = scheduler().check(batch);
+  EXPECT_EQ(result.valid, cartAnswers(*states, -1.0));
+  EXPECT_GT(result.device_states, 0U);
 }
 
 TEST_F(SchedulerTest, TheCoresDecideWhatADeviceLeavesUndecided)
@@ -258,47 +294,78 @@ TEST_F(SchedulerTest, ASceneThatTheDeviceCannotHoldIsTheCpus)
   EXPECT_FALSE(scheduler().history().rebuild_failed) << "nothing is wrong with the device";
 }
 
-/// A device that hangs does not delay an answer: the cores overtake it.
 TEST_F(SchedulerTest, ADeviceThatHangsIsAbandonedForGood)
 {
   limits_.device_seconds = 0.05;
   limits_.retry_seconds = 0.0;
+  scheduler();
+  const auto gate = std::make_shared<std::promise<void>>();
+  device_->parts = {[gate] { gate->get_future().wait(); }};
+  const int opened = device_->opened;
+  EXPECT_EQ(expectRight(kCount).device_states, 0U);
+  EXPECT_EQ(scheduler().history().losses, 1U);
+  EXPECT_TRUE(scheduler().history().rebuild_failed);
+  EXPECT_NE(scheduler().history().last_error.find("has not answered for 0.05"), std::string::npos);
+  scheduler().setScene(cartScene(-1.0, 2));
+  EXPECT_EQ(expectRight(kCount, -1.0, 2).device_states, 0U);
+  EXPECT_EQ(scheduler().deviceName(), "CPU");
+  EXPECT_EQ(device_->opened, opened);
+  scheduler_.reset();
+  EXPECT_EQ(device_->alive, 1) << "destroyed while its thread is in it";
+  gate->set_value();
+  EXPECT_TRUE(isGone()) << "nobody destroyed the device of the thread that came back";
+}
+
+/// The cores overtake it, long before its limit.
+TEST_F(SchedulerTest, ADeviceThatHangsDoesNotDelayAnAnswerOfTheCores)
+{
+  device_only_ = false;
+  scheduler();
+  const auto gate = std::make_shared<std::promise<void>>();
+  const auto is_in = std::make_shared<std::atomic<bool>>(false);
+  device_->parts = {[gate, is_in]
+                    {
+                      *is_in = true;
+                      gate->get_future().wait();
+                    }};
+  for (int i = 0; i < 1000 && !*is_in; ++i)  // a thread that starts late gets nothing
+    expectRight(kMany);
+  ASSERT_TRUE(*is_in);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_EQ(expectRight(kMany).device_states, 0U);
+  EXPECT_EQ(scheduler().history().losses, 0U) << "its limit has not passed";
+  gate->set_value();
+}
+
+TEST_F(SchedulerTest, ADeviceThatHangsAtItsEndIsAbandoned)
+{
+  limits_.device_seconds = 0.05;
+  scheduler();
+  const auto gate = std::make_shared<std::promise<void>>();
+  device_->ends = {[gate] { gate->get_future().wait(); }};
+  scheduler_.reset();
+  EXPECT_EQ(device_->alive, 1);
+  gate->set_value();
+  EXPECT_TRUE(isGone());
+}
+
+TEST_F(SchedulerTest, AnErrorOfTheCallerEndsTheCheck)
+{
   for (const bool device_only : {true, false})
   {
     device_only_ = device_only;
     scheduler_.reset();
     scheduler();
-    const auto gate = std::make_shared<std::promise<void>>();
-    const auto passed = std::make_shared<std::promise<void>>();
-    device_->parts = {[gate, passed]
-                      {
-                        gate->get_future().wait();
-                        passed->set_value();
-                      }};
-    const int opened = device_->opened;
-    expectRight(kMany, 1.0, 1, true);
-    std::this_thread::sleep_for(std::chrono::duration<double>(2.0 * limits_.device_seconds));
-    expectRight(kCount, 1.0, 1, true);
-    EXPECT_EQ(scheduler().history().losses, 1U);
-    EXPECT_TRUE(scheduler().history().rebuild_failed);
-    EXPECT_NE(scheduler().history().last_error.find("has not answered for 0.05"), std::string::npos);
-    scheduler().setScene(cartScene(-1.0, 2));
-    expectRight(kCount, -1.0, 2, true);
-    EXPECT_EQ(scheduler().deviceName(), "CPU");
-    EXPECT_EQ(device_->opened, opened);
-    scheduler_.reset();
-    EXPECT_EQ(device_->alive, 1) << "destroyed while its thread is in it";
-    gate->set_value();
-    passed->get_future().wait();
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    const auto alive = [this]
+    device_->parts.assign(100'000, [] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
+    const std::vector<double> states = cartStates(20'000'000);
+    StateBatch batch{states.data(), states.size()};
+    batch.go_on = [](std::size_t /*answered*/) -> bool { throw Error("interrupted"); };
+    EXPECT_EQ(errorOf([&] { scheduler().check(batch); }), "interrupted");
     {
       const std::lock_guard<std::mutex> lock(device_->mutex);
-      return device_->alive;
-    };
-    while (alive() != 0 && std::chrono::steady_clock::now() < deadline)
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    EXPECT_EQ(alive(), 0) << "nobody destroyed the device of the thread that came back";
+      device_->parts.clear();
+    }
+    expectRight(kCount);
   }
 }
 
@@ -397,7 +464,7 @@ TEST_F(SchedulerTest, TheCallerHearsOfTheProgressAndCanEndTheCheck)
     scheduler();
     const auto slow = [] { std::this_thread::sleep_for(std::chrono::milliseconds(30)); };
     device_->parts.assign(1000, slow);
-    const std::vector<double> states = cartStates(200'000);
+    const std::vector<double> states = cartStates(20'000'000);
     const auto caller = std::this_thread::get_id();
     StateBatch batch{states.data(), states.size()};
     std::size_t calls = 0;
@@ -407,14 +474,12 @@ TEST_F(SchedulerTest, TheCallerHearsOfTheProgressAndCanEndTheCheck)
       EXPECT_LE(answered, states.size());
       return ++calls < 3;
     };
-    EXPECT_THROW(
-        {
-          for (int i = 0; i < 1000; ++i)
-            scheduler().check(batch);
-        },
-        Cancelled);
+    EXPECT_THROW(scheduler().check(batch), Cancelled);
     EXPECT_EQ(calls, 3U);
-    device_->parts.clear();
+    {
+      const std::lock_guard<std::mutex> lock(device_->mutex);
+      device_->parts.clear();
+    }
     expectRight(kCount);
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -38,8 +39,8 @@ struct DeviceScript
 {
   using Step = std::function<void()>;  // throws, or waits, or does nothing
 
-  std::mutex mutex;                         // guards the members below
-  std::deque<Step> opens, prepares, parts;  // one step for each of the next calls; calls without a step just run
+  std::mutex mutex;                               // guards the members below
+  std::deque<Step> opens, prepares, parts, ends;  // one step for each of the next calls; calls without a step just run
   std::string name = "a device";
   std::string fault;
   bool is_software = false;
@@ -47,8 +48,7 @@ struct DeviceScript
   std::vector<std::size_t> undecided;  // states that the device leaves undecided
   int opened = 0;
   int alive = 0;
-  std::size_t states = 0;  // that were answered
-  std::vector<std::size_t> sizes;
+  std::atomic<std::size_t> states{0};  // that were answered
   std::vector<std::thread::id> destroyed_on;
 
   void next(std::deque<Step>& steps)
@@ -78,6 +78,7 @@ class ScriptedDevice : public BatchDevice
   }
   ~ScriptedDevice() override
   {
+    script_->next(script_->ends);
     const std::lock_guard<std::mutex> lock(script_->mutex);
     --script_->alive;
     script_->destroyed_on.push_back(std::this_thread::get_id());
@@ -100,11 +101,9 @@ class ScriptedDevice : public BatchDevice
       std::vector<std::size_t> open;
       for (std::size_t i = mine.begin; i < mine.end(); ++i)
         answer(i, batch, open);
+      script_->states += mine.count;
       if (mine.count != 0)
         batch.endAnswer(mine, open);
-      const std::lock_guard<std::mutex> lock(script_->mutex);
-      script_->sizes.push_back(part.count);
-      script_->states += mine.count;
     }
   }
 
@@ -128,7 +127,7 @@ class ScriptedDevice : public BatchDevice
     if (std::find(script_->undecided.begin(), script_->undecided.end(), i) != script_->undecided.end())
       return open.push_back(i);
     const double margin = batch.margins() ? *batch.margins()->of(i) : 0.0;
-    if (batch.states()[i] * side_ < -margin)
+    if (batch.deviceRows().states[i] * side_ < -margin)
       return;
     batch.result().valid[i] = 0;
     batch.result().colliding[i] = {1, body_};

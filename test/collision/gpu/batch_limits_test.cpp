@@ -10,6 +10,7 @@
 #include "collision/exact/cpu_traversal.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/gpu/gpu_pair_checker.h"
+#include "collision/gpu/recorded_verdicts.h"
 #include "collision/gpu/uploaded_poses.h"
 #include "gpu/egl_context.h"
 #include "shader_constants.h"
@@ -43,36 +44,6 @@ std::shared_ptr<const CollisionProblem> problem()
   made->world_pairs = {1, 1, 1};
   return made;
 }
-
-/// Hands states out, and records their verdicts and the sizes of the parts.
-class RecordedVerdicts : public PartSource
-{
- public:
-  explicit RecordedVerdicts(std::size_t count) : words(count), brought(count, 0) {}
-
-  StateRange take(std::size_t most) override
-  {
-    const StateRange next{taken_, std::min(most, words.size() - taken_)};
-    taken_ = next.end();
-    return next;
-  }
-  void bring(const StateRange& states, const std::uint32_t* verdicts) override
-  {
-    parts.push_back(states.count);
-    for (std::size_t i = 0; i < states.count; ++i)
-    {
-      words[states.begin + i] = verdicts[i];
-      ++brought[states.begin + i];
-    }
-  }
-
-  std::vector<std::uint32_t> words;
-  std::vector<int> brought;
-  std::vector<std::size_t> parts;
-
- private:
-  std::size_t taken_ = 0;
-};
 
 class BatchLimits : public testing::TestWithParam<Traversal>
 {
