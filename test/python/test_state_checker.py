@@ -262,7 +262,7 @@ class StateChecker(Case):
             (gps.Error, "sideways", {"traversal": "sideways"}),
             (gps.Error, "tolerance", {"tolerance": -1.0, "device": "cpu"}),
             (TypeError, "whole number", {"max_batch": -1}),
-            (TypeError, "whole number", {"cpu_below": "all"}),
+            (TypeError, "device_only", {"device_only": "all"}),
             (TypeError, "expected a number", {"tolerance": "fine"}),
         ):
             self.assert_one_line(error, pattern, gps.StateChecker, scene, **options)
@@ -279,7 +279,7 @@ class StateChecker(Case):
             # Wrong only for more than one mesh, so the scene without objects is right.
             layout.write_text(text.replace("  place(left, ", "  if (mesh_count == 1u) place(left, "))
             with mock.patch.dict(os.environ, GPU_PLANNING_SCENE_SHADERS=str(shaders)):
-                checker = gps.StateChecker(scene, cpu_below=0)
+                checker = gps.StateChecker(scene, device_only=True)
                 self.assertNotEqual("CPU", checker.device_name)
                 scene.add_object("a", gps.Sphere(0.3), [1, 0, 0])
                 scene.add_object("b", gps.Sphere(0.4), [-1, 0, 0])
