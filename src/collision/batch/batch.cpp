@@ -178,8 +178,8 @@ StateRange Batch::takeForDevice(std::size_t device, std::size_t most, double sha
   }
   // First of all, the memory: a state that is taken and not recorded would be lost.
   at_devices_.reserve(at_devices_.size() + 1);
-  if (std::none_of(timings_.begin(), timings_.end(), [&](const Timing& timing) { return timing.device == device; }))
-    timings_.push_back({device});
+  if (std::none_of(notes_.begin(), notes_.end(), [&](const DeviceNotes& notes) { return notes.device == device; }))
+    notes_.push_back({device});
   const StateRange taken = takeFrom(waiting_, waiting_count_, most);
   at_devices_.push_back({device, taken, taken.end()});
   return taken;
@@ -187,13 +187,13 @@ StateRange Batch::takeForDevice(std::size_t device, std::size_t most, double sha
 
 void Batch::noteBrought(std::size_t device, std::size_t states)
 {
-  for (Timing& timing : timings_)
-    if (timing.device == device)
+  for (DeviceNotes& notes : notes_)
+    if (notes.device == device)
     {
-      timing.last = Clock::now();
-      if (timing.states == 0)
-        timing.first = timing.last;
-      timing.states += states;
+      notes.last = Clock::now();
+      if (notes.states == 0)
+        notes.first = notes.last;
+      notes.states += states;
     }
 }
 
@@ -201,9 +201,9 @@ DevicePace Batch::paceOf(std::size_t device) const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
-  for (const Timing& timing : timings_)
-    if (timing.device == device)
-      return {timing.states, seconds(timing.first - timing.start), seconds(timing.last - timing.start)};
+  for (const DeviceNotes& notes : notes_)
+    if (notes.device == device)
+      return {notes.states, seconds(notes.first - notes.start), seconds(notes.last - notes.start)};
   return {};
 }
 
@@ -261,16 +261,21 @@ void Batch::endAnswer(const StateRange& states, const std::vector<std::size_t>& 
   changed_.notify_all();
 }
 
-void Batch::add(const GpuWork& work)
+void Batch::noteWork(std::size_t device, const GpuWork& work)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  work_ += work;
+  for (DeviceNotes& notes : notes_)
+    if (notes.device == device)
+      notes.work = work;
 }
 
 GpuWork Batch::work() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return work_;
+  GpuWork sum;
+  for (const DeviceNotes& notes : notes_)
+    sum += notes.work;
+  return sum;
 }
 
 std::size_t Batch::waitingCount() const

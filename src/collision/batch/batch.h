@@ -85,7 +85,9 @@ class Batch
   /// After beginAnswer: its states are answered, except for `undecided` ones and those that only cores can check.
   /// Cores then check these. Needs no memory outside the batch.
   void endAnswer(const StateRange& states, const std::vector<std::size_t>& undecided);
-  void add(const GpuWork& work);
+  /// The work of the device for this batch up to now, once it has taken a part.
+  void noteWork(std::size_t device, const GpuWork& work);
+  /// The work of all devices.
   GpuWork work() const;
 
   /// The number of states that no worker has taken.
@@ -113,10 +115,11 @@ class Batch
     StateRange range;
     std::size_t open_end;
   };
-  struct Timing
+  struct DeviceNotes
   {
     std::size_t device;
     std::size_t states = 0;
+    GpuWork work = {};
     Clock::time_point start = Clock::now();
     Clock::time_point first = start;
     Clock::time_point last = start;
@@ -143,13 +146,12 @@ class Batch
   std::size_t undecided_count_ = 0;  // states of undecided_
   std::vector<DevicePart> at_devices_;
   std::vector<std::size_t> joined_;
-  std::vector<Timing> timings_;
+  std::vector<DeviceNotes> notes_;
   std::size_t answered_ = 0;
   std::size_t answered_by_devices_ = 0;
   std::size_t writing_ = 0;  // devices between beginAnswer and endAnswer
   bool cores_help_ = true;
   bool closed_ = false;
   std::exception_ptr error_;
-  GpuWork work_;
 };
 }  // namespace gpu_planning_scene::core

@@ -21,6 +21,7 @@ class GpuParts : public PartSource
   StateRange take(std::size_t most) override { return take_(most); }
   void bring(const StateRange& part, const std::uint32_t* verdicts) override
   {
+    batch_.noteWork(device_, checker_.lastWork());  // before the batch may end
     undecided_.clear();
     undecided_.reserve(part.count);  // now, because nothing may fail after beginAnswer
     const StateRange states = batch_.beginAnswer(device_, part);
@@ -72,7 +73,6 @@ class GpuDevice : public BatchDevice
   {
     GpuParts parts(checker_, batch, device, take);
     checker_.check(batch.deviceRows().states, parts, batch.margins());
-    batch.add(checker_.lastWork());
   }
 
   std::string name() const override { return checker_.device().renderer; }
