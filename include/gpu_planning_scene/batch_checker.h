@@ -11,7 +11,7 @@ namespace gpu_planning_scene::core
 class Scheduler;
 
 /// Checks batches of states with devices and with the cores of the CPU. They work together on a large batch: each takes
-/// a part of it when it is free. The cores check small batches alone, a single state on the caller's thread. On a
+/// a part of it when it is free. Small batches are checked on the caller's thread. On a
 /// device: forward kinematics, proofs, tests of bounding volumes, tree traversal, triangle tests. Float arithmetic
 /// leaves few states undecided. The CPU decides these with its own trees, in double precision.
 ///
@@ -31,8 +31,6 @@ class BatchChecker : public StateChecker
 
   /// The devices take the scene over in the background. If a device cannot hold it, the CPU checks all states.
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
-  BatchResult check(const double* states, std::size_t count, const std::string& group = "",
-                    const JointNeighbourhood* around = nullptr) override;
   BatchResult checkBatch(const StateBatch& batch) override;
   SceneReport report(const std::string& group = "") override;
   bool checksSideBySide() const override { return true; }

@@ -23,7 +23,8 @@ struct DeviceLimits
   /// If a device makes no progress for longer than this, it counts as hanging and is never used again. The limit of a
   /// scene is device_seconds * (1 + millions of triangles), because their trees are built meanwhile. Infinite: none.
   double device_seconds = 30.0;
-  std::size_t max_losses = 3;  ///< after this many losses within loss_window seconds, the device rests
+  /// After this many losses within loss_window seconds, or two within a batch or a scene, the device rests.
+  std::size_t max_losses = 3;
   double loss_window = 60.0;
   double retry_seconds = 60.0;  ///< time after which a device is tried again
 };
@@ -33,7 +34,7 @@ struct DeviceHistory
 {
   std::uint64_t losses = 0;          ///< noticed losses of a device, or of an ability of a device
   std::uint64_t rebuilds = 0;        ///< reopened devices
-  std::uint64_t batches_on_cpu = 0;  ///< batches that the CPU answered because no device was usable
+  std::uint64_t batches_on_cpu = 0;  ///< batches of more than a few hundred states while no device was usable
   bool on_cpu = false;               ///< the CPU answers now, because no device is usable
   bool rebuild_failed = false;       ///< a device was lost and has not been reopened successfully
   std::string last_error;            ///< last error of a device; empty: none
@@ -41,9 +42,9 @@ struct DeviceHistory
 
 struct BatchCheckerOptions : CheckerOptions
 {
-  /// "auto" (the first hardware device, or software if there is none), "software", an index (Device::index), or a part
-  /// of a renderer's name. The node, the tools and Python also take several devices ("0+1") and all hardware devices
-  /// ("all").
+  /// "auto" (the first hardware device, or software if there is none), "software", an index (Device::index), a part of
+  /// a renderer's name, several of these ("0+1"), or "all" (all hardware devices that can be opened; without any, like
+  /// "auto").
   std::string device = "auto";
   Traversal traversal = Traversal::WorkQueue;
   /// The most states that go to a device at once. It gets fewer if so many would take it more than 50 ms, overflow its

@@ -19,8 +19,6 @@ class CpuChecker : public StateChecker
   ~CpuChecker() override;
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
-  BatchResult check(const double* states, std::size_t count, const std::string& group = "",
-                    const JointNeighbourhood* around = nullptr) override;
   BatchResult checkBatch(const StateBatch& batch) override;
   SceneReport report(const std::string& group = "") override;
   std::string deviceName() const override;

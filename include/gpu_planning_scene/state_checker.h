@@ -64,18 +64,18 @@ struct JointNeighbourhood
   double spread = 0.0;
 };
 
-/// A batch of states that may take long to check.
+/// A batch of states to check.
 struct StateBatch
 {
   const double* states;  ///< row-major, `count` rows of robot->variables().size() values
   std::size_t count;
   std::string group = {};                      ///< see StateChecker::check
   const JointNeighbourhood* around = nullptr;  ///< see StateChecker::check
-  /// Keeps the states alive. Then the check ends even if a device hangs. Null: the caller keeps them alive, and the
-  /// check may wait for a device without a limit.
+  /// Keeps the states alive. Null: the states need not live longer than the check, so it copies them for devices.
   std::shared_ptr<const void> owner = nullptr;
-  /// Called on the caller's thread about every 20 ms with the number of states that have been answered. If it returns
-  /// false, the check soon throws Cancelled.
+  /// In batches of more than a few hundred states, called on the caller's thread about every 20 ms with the number of
+  /// states that have been answered. If it returns false, the check soon throws Cancelled. What it throws ends the
+  /// check too. It must not use the checker.
   std::function<bool(std::size_t answered)> go_on = nullptr;
 };
 
@@ -86,7 +86,7 @@ struct BatchResult
   std::uint64_t revision = 0;       ///< revision of the checked scene
   double seconds = 0.0;             ///< wall time; shaders are usually compiled, and trees built, before the check
   std::size_t device_states = 0;    ///< states that devices decided; the CPU decided the others
-  /// States that a device left undecided and the CPU then decided.
+  /// States that a device left undecided, because float32 proves no verdict, and the CPU then decided.
   std::size_t undecided_states = 0;
 
   /// Appends the result of the states that follow. Times and counts are added; the revision is that of `next`.
@@ -129,8 +129,7 @@ struct SceneReport
   std::size_t trees = 0;         ///< one per distinct shape
   std::size_t shared_trees = 0;  ///< shapes that use the tree of an equal shape
   /// The states of this group that the CPU has checked since setScene, by the stage that decided them. All states
-  /// count: with or without a neighbourhood, and also those of measurements (CPU or GPU). Exception: states that the
-  /// GPU has left undecided do not count.
+  /// count: with or without a neighbourhood, and also those that a device has left undecided.
   std::vector<DecidedStates> decided;
 };
 
@@ -155,15 +154,14 @@ class StateChecker
   /// itself may be free, and the reported pair may only be near. A state outside the joint limits gets 0. Only joints
   /// that the group moves may have a travel above 0; the function does not verify this. Throws Error if the rows or the
   /// travel do not fit the states.
-  virtual BatchResult check(const double* states, std::size_t count, const std::string& group = "",
-                            const JointNeighbourhood* around = nullptr) = 0;
-
-  /// The same for a batch that may take long. Throws Cancelled too. By default, all states are checked at once, and
-  /// `go_on` is not called.
-  virtual BatchResult checkBatch(const StateBatch& batch)
+  BatchResult check(const double* states, std::size_t count, const std::string& group = "",
+                    const JointNeighbourhood* around = nullptr)
   {
-    return check(batch.states, batch.count, batch.group, batch.around);
+    return checkBatch({states, count, group, around});
   }
+
+  /// The same for a batch that may take long. Throws Cancelled too.
+  virtual BatchResult checkBatch(const StateBatch& batch) = 0;
 
   /// Pairs that are checked for a group and pairs that are left out. Throws Error for an unknown group.
   virtual SceneReport report(const std::string& group = "") = 0;

@@ -38,23 +38,22 @@ class CheckerMaker
   {
     if (cpu_only_)
       return std::make_shared<CpuChecker>(scene, options_);
+    if (!opened_)
+      return openFirst(scene);
     auto scheduler = schedulerOf(options_, open_device_);
-    if (opened_)
-      scheduler->setScene(scene);
-    else if (auto on_cpu = openFirst(*scheduler, scene))
-      return on_cpu;
+    scheduler->setScene(scene);
     return std::make_shared<BatchChecker>(std::move(scheduler));
   }
 
   /// At the start: a device that the user has named must work. The devices "auto" and "all" need not exist.
-  /// Returns a checker if the CPU must answer.
-  std::shared_ptr<StateChecker> openFirst(Scheduler& scheduler, const Scene& scene)
+  std::shared_ptr<StateChecker> openFirst(const Scene& scene)
   {
     try
     {
-      scheduler.openDevices(scene);
+      auto scheduler = schedulerOf(options_, open_device_);
+      scheduler->openDevices(scene, options_.device == "all");
       opened_ = true;
-      return nullptr;
+      return std::make_shared<BatchChecker>(std::move(scheduler));
     }
     catch (const Error& error)
     {

@@ -51,8 +51,7 @@ void GatedChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   scene_ = std::move(scene);
 }
 
-BatchResult GatedChecker::check(const double* states, std::size_t count, const std::string& group,
-                                const JointNeighbourhood*)
+BatchResult GatedChecker::checkSlice(const double* states, std::size_t count, const std::string& group)
 {
   {
     std::unique_lock<std::mutex> lock(gate_.mutex_);
@@ -87,7 +86,7 @@ BatchResult GatedChecker::checkBatch(const StateBatch& batch)
     if (done != 0 && batch.go_on && !batch.go_on(done))
       throw Cancelled();
     const std::size_t count = std::min(kSlice, batch.count - done);
-    all.append(check(batch.states + done * width, count, batch.group, batch.around));
+    all.append(checkSlice(batch.states + done * width, count, batch.group));
     done += count;
   } while (done < batch.count);
   return all;

@@ -10,6 +10,7 @@ namespace
 {
 // A core's part: as small as possible without contention for the mutex, and a multiple of the lanes.
 constexpr std::size_t kSmallestCorePart = 32;
+constexpr std::size_t kMostRanges = 64;  // of a core's part
 // A part is at most this fraction of a worker's share of the waiting states, so that the last parts are small.
 constexpr std::size_t kPartsAhead = 4;
 constexpr std::size_t kSmallestDevicePart = 1024;  // fewer states keep no device busy
@@ -91,24 +92,38 @@ StateRange Batch::overtake(std::size_t most)
   return {longest->open_end, taken};
 }
 
-StateRange Batch::takeForCore(std::size_t most)
+StateRange Batch::takeNext(std::size_t most)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const std::size_t states = available();
-  if (states == 0)
-    return {};
-  const std::size_t share = states / (kPartsAhead * cores_) / kSmallestCorePart * kSmallestCorePart;
-  most = std::min(most, std::max(share, kSmallestCorePart));
   if (undecided_count_ != 0)
     return takeFrom(undecided_, undecided_count_, most);
   return waiting_count_ != 0 ? takeFrom(waiting_, waiting_count_, most) : overtake(most);
 }
 
-void Batch::answered(const StateRange& part)
+void Batch::takeForCore(std::size_t most, std::vector<StateRange>& part)
 {
-  freeUnlessHit(part, result_.valid);
+  part.clear();
+  part.reserve(kMostRanges);  // now: a state that is taken and not recorded would be lost
   const std::lock_guard<std::mutex> lock(mutex_);
-  answered_ += part.count;
+  const std::size_t states = available();
+  const std::size_t share = states / (kPartsAhead * cores_) / kSmallestCorePart * kSmallestCorePart;
+  most = std::min(most, std::max(share, kSmallestCorePart));
+  while (most != 0 && part.size() < kMostRanges && available() != 0)
+  {
+    part.push_back(takeNext(most));
+    most -= part.back().count;
+  }
+}
+
+void Batch::answered(const std::vector<StateRange>& part)
+{
+  std::size_t states = 0;
+  for (const StateRange& range : part)
+  {
+    freeUnlessHit(range, result_.valid);
+    states += range.count;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  answered_ += states;
   if (answered_ == count())
     changed_.notify_all();
 }
@@ -176,10 +191,9 @@ StateRange Batch::takeForDevice(std::size_t device, std::size_t most, double sha
     const auto ahead = static_cast<std::size_t>(share * static_cast<double>(waiting_count_));
     most = std::min(most, std::max(kSmallestDevicePart, ahead));
   }
-  // First of all, the memory: a state that is taken and not recorded would be lost.
-  at_devices_.reserve(at_devices_.size() + 1);
-  if (std::none_of(notes_.begin(), notes_.end(), [&](const DeviceNotes& notes) { return notes.device == device; }))
-    notes_.push_back({device});
+  at_devices_.reserve(at_devices_.size() + 1);  // now: a state that is taken and not recorded would be lost
+  if (std::none_of(timings_.begin(), timings_.end(), [&](const Timing& timing) { return timing.device == device; }))
+    timings_.push_back({device});
   const StateRange taken = takeFrom(waiting_, waiting_count_, most);
   at_devices_.push_back({device, taken, taken.end()});
   return taken;
@@ -187,13 +201,13 @@ StateRange Batch::takeForDevice(std::size_t device, std::size_t most, double sha
 
 void Batch::noteBrought(std::size_t device, std::size_t states)
 {
-  for (DeviceNotes& notes : notes_)
-    if (notes.device == device)
+  for (Timing& timing : timings_)
+    if (timing.device == device)
     {
-      notes.last = Clock::now();
-      if (notes.states == 0)
-        notes.first = notes.last;
-      notes.states += states;
+      timing.last = Clock::now();
+      if (timing.states == 0)
+        timing.first = timing.last;
+      timing.states += states;
     }
 }
 
@@ -201,81 +215,93 @@ DevicePace Batch::paceOf(std::size_t device) const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
-  for (const DeviceNotes& notes : notes_)
-    if (notes.device == device)
-      return {notes.states, seconds(notes.first - notes.start), seconds(notes.last - notes.start)};
+  for (const Timing& timing : timings_)
+    if (timing.device == device)
+      return {timing.states, seconds(timing.first - timing.start), seconds(timing.last - timing.start)};
   return {};
 }
 
-StateRange Batch::beginAnswer(std::size_t device, const StateRange& part)
+StateRange Batch::beginAnswer(std::size_t device, const StateRange& states)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (closed_)
     return {};
-  const auto known =
-      std::find_if(at_devices_.begin(), at_devices_.end(),
-                   [&](const DevicePart& other) { return other.device == device && other.range.begin == part.begin; });
-  if (known == at_devices_.end())
+  const auto part = std::find_if(at_devices_.begin(), at_devices_.end(),
+                                 [&](const DevicePart& other)
+                                 { return other.device == device && other.range.begin == states.begin; });
+  if (part == at_devices_.end())
     return {};
-  noteBrought(device, part.count);
-  const StateRange states{part.begin, std::max(part.begin, std::min(part.end(), known->open_end)) - part.begin};
-  known->range = {part.end(), known->range.end() - part.end()};
-  if (known->range.begin >= known->open_end)
-    at_devices_.erase(known);
-  if (states.count != 0)
+  noteBrought(device, states.count);
+  const StateRange own{states.begin, std::max(states.begin, std::min(states.end(), part->open_end)) - states.begin};
+  part->range = {states.end(), part->range.end() - states.end()};
+  if (part->range.begin >= part->open_end)
+    at_devices_.erase(part);
+  if (own.count != 0)
     ++writing_;
-  return states;
+  return own;
 }
 
 void Batch::endAnswer(const StateRange& states, const std::vector<std::size_t>& undecided)
 {
   freeUnlessHit(states, result_.valid);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  std::size_t open = 0;
+  std::vector<StateRange> open;
+  std::size_t open_count = 0;
+  std::size_t by_choice = 0;  // undecided, although devices can check them
+  std::exception_ptr error;
   const auto reopen = [&](std::size_t row)
   {
-    if (result_.valid[row] == kNoAnswer)
-      return;
     result_.valid[row] = kNoAnswer;
     result_.colliding[row] = kNoPair;
-    ++open;
-    addRow(row, undecided_);
+    ++open_count;
+    addRow(row, open);
   };
+  const auto is_only_for_cores = [this](std::size_t row)
+  { return !rows_.only_cores.empty() && rows_.only_cores[row] != 0; };
   try
   {
     for (const std::size_t row : undecided)
-      reopen(row);
+      if (!is_only_for_cores(row))
+      {
+        reopen(row);
+        ++by_choice;
+      }
     for (std::size_t row = states.begin; row < states.end() && !rows_.only_cores.empty(); ++row)
-      if (rows_.only_cores[row] != 0)
+      if (is_only_for_cores(row))
         reopen(row);
   }
   catch (...)
   {
-    end(std::current_exception());
+    error = std::current_exception();
   }
-  undecided_count_ += open;
-  result_.undecided_states += open;
-  answered_ += states.count - open;
-  answered_by_devices_ += states.count - open;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  try
+  {
+    undecided_.insert(undecided_.end(), open.begin(), open.end());
+  }
+  catch (...)
+  {
+    error = std::current_exception();
+  }
+  if (error)
+    end(error);
+  undecided_count_ += open_count;
+  result_.undecided_states += by_choice;
+  answered_ += states.count - open_count;
+  answered_by_devices_ += states.count - open_count;
   --writing_;
   changed_.notify_all();
 }
 
-void Batch::noteWork(std::size_t device, const GpuWork& work)
+void Batch::add(const GpuWork& work)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (DeviceNotes& notes : notes_)
-    if (notes.device == device)
-      notes.work = work;
+  work_ += work;
 }
 
 GpuWork Batch::work() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  GpuWork sum;
-  for (const DeviceNotes& notes : notes_)
-    sum += notes.work;
-  return sum;
+  return work_;
 }
 
 std::size_t Batch::waitingCount() const
@@ -288,12 +314,6 @@ std::size_t Batch::answeredCount() const
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   return answered_;
-}
-
-std::size_t Batch::answeredByDevices() const
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return answered_by_devices_;
 }
 
 void Batch::close()

@@ -58,9 +58,11 @@ class Batch
   // For cores.
   /// Whether cores take the states that devices can check. At first, they do.
   void letCoresHelp(bool help);
-  /// The next part, at most `most` states. An empty part: there is none now, but a device may bring more.
-  StateRange takeForCore(std::size_t most);
-  void answered(const StateRange& part);
+  /// Replaces `part` by the next part: ranges of at most `most` states together. None: there is none now, but a device
+  /// may leave more states undecided.
+  void takeForCore(std::size_t most, std::vector<StateRange>& part);
+  /// The core has checked these states.
+  void answered(const std::vector<StateRange>& part);
   /// Waits until there may be a part for a core, or until the batch has ended; at most until `time`.
   void waitForCores(std::chrono::steady_clock::time_point time);
   /// The number of states that cores can take now.
@@ -79,21 +81,19 @@ class Batch
   void leave(std::size_t device);
   /// The next part: at most `most` states, and at most `share` of the waiting states. An empty part: there is none.
   StateRange takeForDevice(std::size_t device, std::size_t most, double share);
-  /// Must be called before a device writes the answers of a part, or of its next states in ascending order. Returns the
-  /// states that it may write; if there is one, endAnswer must follow.
-  StateRange beginAnswer(std::size_t device, const StateRange& part);
-  /// After beginAnswer: its states are answered, except for `undecided` ones and those that only cores can check.
-  /// Cores then check these. Needs no memory outside the batch.
+  /// Must be called before a device writes answers. `states`: the first states of a part that it has not answered yet.
+  /// Returns those that it may write, because no core has taken them; if there is one, endAnswer must follow.
+  StateRange beginAnswer(std::size_t device, const StateRange& states);
+  /// The states of beginAnswer are answered, except for `undecided` ones and those that only cores can check. Cores
+  /// then check these.
   void endAnswer(const StateRange& states, const std::vector<std::size_t>& undecided);
-  /// The work of the device for this batch up to now, once it has taken a part.
-  void noteWork(std::size_t device, const GpuWork& work);
+  void add(const GpuWork& work);
   /// The work of all devices.
   GpuWork work() const;
 
   /// The number of states that no worker has taken.
   std::size_t waitingCount() const;
   std::size_t answeredCount() const;
-  std::size_t answeredByDevices() const;
   /// What the device has done up to now.
   DevicePace paceOf(std::size_t device) const;
   bool isComplete() const { return answeredCount() == count(); }
@@ -115,11 +115,10 @@ class Batch
     StateRange range;
     std::size_t open_end;
   };
-  struct DeviceNotes
+  struct Timing
   {
     std::size_t device;
     std::size_t states = 0;
-    GpuWork work = {};
     Clock::time_point start = Clock::now();
     Clock::time_point first = start;
     Clock::time_point last = start;
@@ -127,6 +126,7 @@ class Batch
 
   // The caller of these functions holds mutex_.
   std::size_t available() const;
+  StateRange takeNext(std::size_t most);
   StateRange overtake(std::size_t most);
   void returnParts(std::size_t device);
   void end(std::exception_ptr error);
@@ -146,12 +146,13 @@ class Batch
   std::size_t undecided_count_ = 0;  // states of undecided_
   std::vector<DevicePart> at_devices_;
   std::vector<std::size_t> joined_;
-  std::vector<DeviceNotes> notes_;
+  std::vector<Timing> timings_;
   std::size_t answered_ = 0;
   std::size_t answered_by_devices_ = 0;
   std::size_t writing_ = 0;  // devices between beginAnswer and endAnswer
   bool cores_help_ = true;
   bool closed_ = false;
   std::exception_ptr error_;
+  GpuWork work_;
 };
 }  // namespace gpu_planning_scene::core

@@ -1,15 +1,13 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 
-#include "collision/batch/state_range.h"
 #include "gpu_planning_scene/batch_checker_options.h"
 
 namespace gpu_planning_scene::core
 {
-class Batch;
+class DeviceParts;
 class LaneScene;
 struct CollisionProblem;
 
@@ -33,11 +31,9 @@ class BatchDevice
   /// is unusable then.
   virtual void prepare(const DeviceTask& task) = 0;
 
-  /// The next part of a batch: see Batch::takeForDevice. Called on any thread of the device, one call at a time.
-  using Take = std::function<StateRange(std::size_t most)>;
-  /// Checks the parts of the batch that `take` gives, with the task of the last prepare(), and answers them under the
-  /// number `device`. Throws DeviceLost.
-  virtual void check(Batch& batch, std::size_t device, const Take& take) = 0;
+  /// Takes parts until there is none, checks them with the task of the last prepare(), and answers them. Throws
+  /// DeviceLost.
+  virtual void check(DeviceParts& parts) = 0;
 
   virtual std::string name() const = 0;
   /// Whether the device runs on the cores of the CPU.

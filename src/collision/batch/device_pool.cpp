@@ -1,6 +1,7 @@
 #include "collision/batch/device_pool.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 namespace gpu_planning_scene::core
@@ -17,6 +18,7 @@ constexpr double kFirstShare = 0.25;  // while the rates are not known
 
 constexpr std::size_t kLeastForRate = 1024;  // states; fewer say little about the rate
 constexpr double kNewest = 0.5;              // weight of the newest batch
+constexpr double kForgetting = 0.9;          // factor of a latency, for each batch that the device did not join
 
 void learnRate(double& known, std::size_t states, double seconds)
 {
@@ -32,10 +34,30 @@ DevicePool::DevicePool(std::vector<std::unique_ptr<DeviceWorker>> devices, bool 
 {
 }
 
-void DevicePool::open(const DeviceTask& task)
+DevicePool::~DevicePool()
 {
   for (const auto& device : devices_)
-    device->open(task);
+    device->stop();  // so that they end at the same time
+}
+
+void DevicePool::open(const DeviceTask& task, bool one_suffices)
+{
+  std::exception_ptr error;
+  bool is_one_open = false;
+  for (const auto& device : devices_)
+    try
+    {
+      device->open(task);
+      is_one_open = true;
+    }
+    catch (const std::exception&)
+    {
+      if (!one_suffices)
+        throw;
+      error = error ? error : std::current_exception();
+    }
+  if (error && !is_one_open)
+    std::rethrow_exception(error);
 }
 
 void DevicePool::prepare(const DeviceTask& task)
@@ -44,10 +66,10 @@ void DevicePool::prepare(const DeviceTask& task)
     device->prepare(task);
 }
 
-void DevicePool::wait()
+bool DevicePool::waitFor(std::chrono::milliseconds time)
 {
-  for (const auto& device : devices_)
-    device->wait();
+  return std::all_of(
+      devices_.begin(), devices_.end(), [time](const auto& device) { return device->waitFor(time); });
 }
 
 void DevicePool::abandonOverdue()
@@ -79,7 +101,8 @@ bool DevicePool::suits(const std::string& group, std::size_t waiting) const
 {
   const Paces paces = pacesOf(group);
   for (std::size_t i = 0; i < devices_.size(); ++i)
-    if (devices_[i]->isFree() && pays(*devices_[i], paces.devices[i], paces.cores, waiting))
+    if (devices_[i]->isFree() &&
+        (devices_[i]->isClosed() || pays(*devices_[i], paces.devices[i], paces.cores, waiting)))
       return true;
   return false;
 }
@@ -97,8 +120,12 @@ bool DevicePool::join(const std::shared_ptr<Batch>& batch, const DeviceTask& tas
     const double share = device_only_  ? kAhead / static_cast<double>(devices_.size())
                          : rate == 0.0 ? kFirstShare
                                        : kAhead * rate / together;
-    if (!batch->hasJoined(i) && pays(*devices_[i], paces.devices[i], paces.cores, batch->waitingCount()))
+    if (batch->hasJoined(i))
+      continue;
+    if (pays(*devices_[i], paces.devices[i], paces.cores, batch->waitingCount()))
       has_joined = devices_[i]->start(batch, task, i, share) || has_joined;
+    else if (devices_[i]->isClosed())
+      devices_[i]->prepare(task);
   }
   return has_joined;
 }
@@ -113,6 +140,9 @@ void DevicePool::learn(const Batch& batch, const std::string& group, std::size_t
   {
     DeviceMean& known = paces.devices[i];
     const DevicePace pace = batch.paceOf(i);
+    // A device with a latency that was long once joins no batch, so it would never show that it is shorter now.
+    if (pace.states == 0 && batch.count() >= kLeastForDevice)
+      known.latency *= kForgetting;
     // In its first batch, a driver may still compile.
     if (pace.states == 0 || ++known.batches == 1)
       continue;

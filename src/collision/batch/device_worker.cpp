@@ -13,6 +13,7 @@
 
 #include <malloc.h>
 
+#include "collision/batch/device_parts.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/error.h"
 #include "model/finally.h"
@@ -54,7 +55,7 @@ struct DeviceWorker::Shared
 
   void serve();
   void prepare(const DeviceTask& task);
-  void checkParts(Batch& batch, const DeviceTask& task, std::size_t number, const BatchDevice::Take& take);
+  void checkParts(const DeviceTask& task, DeviceParts& parts);
   void dropDevice();
   bool noteLoss(const std::string& error);
   void noteRefusal(const std::string& error);
@@ -160,11 +161,16 @@ void DeviceWorker::Shared::prepare(const DeviceTask& task)
 {
   const bool is_new = !device;
   if (is_new)
+  {
     device = open_device();
+    noteProgress();
+  }
   device->prepare(task);
   if (is_new)
   {
     const std::lock_guard<std::mutex> lock(mutex);
+    if (is_abandoned)
+      return;
     history.rebuilds += was_open ? 1 : 0;
     history.rebuild_failed = false;
     name = device->name();
@@ -176,24 +182,28 @@ void DeviceWorker::Shared::prepare(const DeviceTask& task)
   noteStatus();
 }
 
-void DeviceWorker::Shared::checkParts(Batch& its_batch, const DeviceTask& task, std::size_t its_number,
-                                      const BatchDevice::Take& take)
+void DeviceWorker::Shared::checkParts(const DeviceTask& task, DeviceParts& parts)
 {
-  prepare(task);
-  const BatchDevice::Take noted = [&](std::size_t most)
+  try
   {
-    noteProgress();
-    return take(most);
-  };
-  device->check(its_batch, its_number, noted);
-  noteStatus();
+    prepare(task);
+    device->check(parts);
+    noteStatus();
+  }
+  catch (...)
+  {
+    parts.giveBack();
+    throw;
+  }
 }
 
 void DeviceWorker::Shared::dropDevice()
 {
   if (!device)
     return;
+  noteProgress();
   device.reset();
+  noteProgress();
   // A software renderer has hundreds of megabytes on the heap, which free() alone would not return to the system.
   malloc_trim(0);
 }
@@ -202,6 +212,8 @@ void DeviceWorker::Shared::dropDevice()
 void DeviceWorker::Shared::rest(const std::string& error)
 {
   const std::lock_guard<std::mutex> lock(mutex);
+  if (is_abandoned)
+    return;
   retry = Clock::now() + duration(limits.retry_seconds);
   history.on_cpu = true;
   history.last_error = error;
@@ -216,6 +228,8 @@ bool DeviceWorker::Shared::noteLoss(const std::string& error)
   bool too_often = false;
   {
     const std::lock_guard<std::mutex> lock(mutex);
+    if (is_abandoned)  // while it was dropped
+      return false;
     history.rebuild_failed = history.rebuild_failed || (was_opening && was_open);
     ++history.losses;
     history.last_error = error;
@@ -232,12 +246,11 @@ bool DeviceWorker::Shared::noteLoss(const std::string& error)
 /// The device cannot be opened, or cannot hold the scene.
 void DeviceWorker::Shared::noteRefusal(const std::string& error)
 {
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    history.rebuild_failed = history.rebuild_failed || (!device && was_open);
-  }
+  const bool was_opening = !device;
   dropDevice();
   rest(error);
+  const std::lock_guard<std::mutex> lock(mutex);
+  history.rebuild_failed = history.rebuild_failed || (was_opening && was_open);
 }
 
 DeviceWorker::DeviceWorker(Open open, const DeviceLimits& limits)
@@ -246,16 +259,29 @@ DeviceWorker::DeviceWorker(Open open, const DeviceLimits& limits)
   shared_->thread = std::thread([shared = shared_] { shared->serve(); });
 }
 
-DeviceWorker::~DeviceWorker()
+void DeviceWorker::stop()
 {
-  std::unique_lock<std::mutex> lock(shared_->mutex);
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
   shared_->is_stopping = true;
   shared_->wake.notify_one();
+}
+
+DeviceWorker::~DeviceWorker()
+{
+  stop();
+  std::unique_lock<std::mutex> lock(shared_->mutex);
   while (!shared_->is_finished && !shared_->is_abandoned)
   {
     shared_->ended.wait_for(lock, kPatience);
     lock.unlock();
-    abandonIfOverdue();
+    try
+    {
+      abandonIfOverdue();
+    }
+    catch (const std::exception&)
+    {
+      // No memory for its message. The next time, there may be some.
+    }
     lock.lock();
   }
   if (shared_->is_abandoned)
@@ -264,14 +290,14 @@ DeviceWorker::~DeviceWorker()
   shared_->thread.join();
 }
 
-void DeviceWorker::wait()
+bool DeviceWorker::waitFor(std::chrono::milliseconds time)
 {
-  do
   {
     std::unique_lock<std::mutex> lock(shared_->mutex);
-    if (shared_->ended.wait_for(lock, kPatience, [this] { return !shared_->is_busy || shared_->is_abandoned; }))
-      return;
-  } while (!abandonIfOverdue());
+    if (shared_->ended.wait_for(lock, time, [this] { return !shared_->is_busy || shared_->is_abandoned; }))
+      return true;
+  }
+  return abandonIfOverdue();
 }
 
 bool DeviceWorker::begin(Shared::Job job, const DeviceTask& task, const std::shared_ptr<Batch>& batch,
@@ -303,10 +329,10 @@ void DeviceWorker::open(const DeviceTask& task)
         {
           shared.prepare(task);
         }
-        catch (...)
+        catch (const std::exception& refusal)
         {
           *error = std::current_exception();
-          shared.dropDevice();
+          shared.noteRefusal(refusal.what());
         }
       },
       task, nullptr, 0, false);
@@ -364,22 +390,11 @@ bool DeviceWorker::start(const std::shared_ptr<Batch>& batch, const DeviceTask& 
   return begin(
       [batch, task, device, share](Shared& shared)
       {
-        const Finally leave([&] { batch->leave(device); });
-        const BatchDevice::Take take = [&](std::size_t most) { return batch->takeForDevice(device, most, share); };
+        DeviceParts parts(
+            batch, device, share, [&shared] { shared.noteProgress(); });
+        const Finally leave([&] { parts.leave(); });
         runTolerantly(
-            shared,
-            [&]
-            {
-              try
-              {
-                shared.checkParts(*batch, task, device, take);
-              }
-              catch (...)
-              {
-                batch->giveBack(device);
-                throw;
-              }
-            });
+            shared, [&] { shared.checkParts(task, parts); });
       },
       task, batch, device, true);
 }
@@ -395,10 +410,10 @@ bool DeviceWorker::abandonIfOverdue()
       return false;
     std::ostringstream message;
     message << "the device has not answered for " << shared_->limit_seconds << " s and is no longer used";
+    shared_->history.last_error = message.str();  // before the changes that must not be left half done
     shared_->is_abandoned = true;
     shared_->is_stopping = true;  // the thread exits if the device returns after all
     ++shared_->history.losses;
-    shared_->history.last_error = message.str();
     shared_->history.on_cpu = true;
     shared_->history.rebuild_failed = true;
     batch = shared_->batch.lock();
@@ -415,6 +430,12 @@ std::string DeviceWorker::name() const
 {
   const std::lock_guard<std::mutex> lock(shared_->mutex);
   return shared_->name;
+}
+
+bool DeviceWorker::isClosed() const
+{
+  const std::lock_guard<std::mutex> lock(shared_->mutex);
+  return shared_->history.on_cpu || !shared_->was_open;
 }
 
 bool DeviceWorker::isSoftware() const

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -13,8 +14,7 @@ namespace gpu_planning_scene::core
 {
 /// A device with a thread of its own, which takes parts of batches. If the device is lost, the parts go back to the
 /// batch, and the thread opens the device again; after too many losses in a short time, it does so later. A device that
-/// hangs is abandoned together with its thread and all that they use, for good: so at most one thread is lost. Own
-/// method. Thread-safe.
+/// hangs is abandoned together with its threads and all that they use, for good. Own method. Thread-safe.
 class DeviceWorker
 {
  public:
@@ -22,19 +22,24 @@ class DeviceWorker
 
   /// `open` is called on the worker's thread.
   DeviceWorker(Open open, const DeviceLimits& limits);
-  /// Waits for the thread, unless it was abandoned or is overdue.
+  /// Calls stop() and waits for the thread, unless it was abandoned or is overdue.
   ~DeviceWorker();
   DeviceWorker(const DeviceWorker&) = delete;
   DeviceWorker& operator=(const DeviceWorker&) = delete;
 
-  /// Opens the device, prepares it for the task, and waits for this without a limit. Throws the errors of the device.
+  /// Asks the thread to destroy the device and to end. Does not wait.
+  void stop();
+
+  /// Opens the device, prepares it for the task, and waits for this without a limit. Throws the errors of the device;
+  /// then it is not used for some time.
   void open(const DeviceTask& task);
 
   /// Starts to prepare for a task, and opens the device if it is not open. Does nothing if the worker is not free.
   void prepare(const DeviceTask& task);
 
-  /// Waits until the device has done its work, or is abandoned because it hangs.
-  void wait();
+  /// Waits until the device has done its work, or is abandoned because it hangs; at most for this time. Returns whether
+  /// this has happened.
+  bool waitFor(std::chrono::milliseconds time);
 
   /// Whether the worker could start now: its thread waits, and no rest after losses is due.
   bool isFree() const;
@@ -47,6 +52,8 @@ class DeviceWorker
   bool abandonIfOverdue();
 
   std::string name() const;
+  /// Whether the device has not been opened yet, or has failed and has not been opened again.
+  bool isClosed() const;
   /// True until the device has been opened.
   bool isSoftware() const;
   std::string fault() const;

@@ -1,8 +1,8 @@
 #include <utility>
 #include <vector>
 
-#include "collision/batch/batch.h"
 #include "collision/batch/batch_device.h"
+#include "collision/batch/device_parts.h"
 #include "collision/gpu/gpu_checker.h"
 
 namespace gpu_planning_scene::core
@@ -13,21 +13,18 @@ namespace
 class GpuParts : public PartSource
 {
  public:
-  GpuParts(const GpuChecker& checker, Batch& batch, std::size_t device, const BatchDevice::Take& take)
-    : checker_(checker), batch_(batch), device_(device), take_(take)
-  {
-  }
+  GpuParts(const GpuChecker& checker, DeviceParts& parts) : checker_(checker), parts_(parts) {}
 
-  StateRange take(std::size_t most) override { return take_(most); }
-  void bring(const StateRange& part, const std::uint32_t* verdicts) override
+  StateRange take(std::size_t most) override { return parts_.take(most); }
+  void bring(const StateRange& brought, const std::uint32_t* verdicts, const GpuWork& work) override
   {
-    batch_.noteWork(device_, checker_.lastWork());  // before the batch may end
+    parts_.add(work);  // before the batch may end
     undecided_.clear();
-    undecided_.reserve(part.count);  // now, because nothing may fail after beginAnswer
-    const StateRange states = batch_.beginAnswer(device_, part);
+    undecided_.reserve(brought.count);  // now, because nothing may fail after beginAnswer
+    const StateRange states = parts_.beginAnswer(brought);
     if (states.count == 0)
       return;
-    BatchResult& result = batch_.result();
+    BatchResult& result = parts_.result();
     for (std::size_t i = 0; i < states.count; ++i)
       if (isHit(verdicts[i]))
       {
@@ -36,14 +33,12 @@ class GpuParts : public PartSource
       }
       else if (!isFree(verdicts[i]))
         undecided_.push_back(states.begin + i);
-    batch_.endAnswer(states, undecided_);
+    parts_.endAnswer(states, undecided_);
   }
 
  private:
   const GpuChecker& checker_;
-  Batch& batch_;
-  const std::size_t device_;
-  const BatchDevice::Take& take_;
+  DeviceParts& parts_;
   std::vector<std::size_t> undecided_;
 };
 
@@ -69,10 +64,10 @@ class GpuDevice : public BatchDevice
     checker_.useProofs(task.proofs);
   }
 
-  void check(Batch& batch, std::size_t device, const Take& take) override
+  void check(DeviceParts& parts) override
   {
-    GpuParts parts(checker_, batch, device, take);
-    checker_.check(batch.deviceRows().states, parts, batch.margins());
+    GpuParts source(checker_, parts);
+    checker_.check(parts.states(), source, parts.margins());
   }
 
   std::string name() const override { return checker_.device().renderer; }

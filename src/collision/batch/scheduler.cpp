@@ -31,28 +31,6 @@ constexpr std::chrono::milliseconds kTick{20};
 // The parts of a core.
 constexpr BatchSize::Limits kCoreParts = {0.005, 32, 8, 1024};
 
-/// Calls StateBatch::go_on from time to time.
-class Progress
-{
- public:
-  explicit Progress(const StateBatch& asked) : asked_(asked) {}
-
-  /// Whether a tick has passed since the last one. Throws Cancelled.
-  bool tick(const Batch& batch)
-  {
-    if (Clock::now() < next_)
-      return false;
-    next_ = Clock::now() + kTick;
-    if (asked_.go_on && !asked_.go_on(batch.answeredCount()))
-      throw Cancelled();
-    return true;
-  }
-
- private:
-  const StateBatch& asked_;
-  Clock::time_point next_ = Clock::now() + kTick;
-};
-
 /// A state is only for cores if the problem is not valid for it, or if devices cannot place it. With margins, states
 /// outside the joints' limits have no displacement bounds, and the cores report them as not free.
 DeviceRows rowsForDevices(const StateBatch& asked, const Margins* margins, const RobotModel& robot,
@@ -83,6 +61,29 @@ DeviceRows rowsForDevices(const StateBatch& asked, const Margins* margins, const
   return rows;
 }
 }  // namespace
+
+/// Calls StateBatch::go_on from time to time.
+class Scheduler::Progress
+{
+ public:
+  Progress(const StateBatch& asked, const Batch& batch) : asked_(asked), batch_(batch) {}
+
+  /// Whether a tick has passed since the last one. Throws Cancelled.
+  bool tick()
+  {
+    if (Clock::now() < next_)
+      return false;
+    next_ = Clock::now() + kTick;
+    if (asked_.go_on && !asked_.go_on(batch_.answeredCount()))
+      throw Cancelled();
+    return true;
+  }
+
+ private:
+  const StateBatch& asked_;
+  const Batch& batch_;
+  Clock::time_point next_ = Clock::now() + kTick;
+};
 
 /// Lets devices join a batch, at its start and later.
 class Scheduler::DeviceJoin
@@ -129,25 +130,33 @@ Scheduler::Scheduler(const CheckerOptions& options, std::vector<std::unique_ptr<
 
 void Scheduler::setOnCpu(std::shared_ptr<const PlanningScene> scene)
 {
-  if (scene_.scene() && scene && scene->robot != scene_.scene()->robot)
+  const bool is_other_robot = scene_.scene() && scene && scene->robot != scene_.scene()->robot;
+  scene_.setScene(std::move(scene), !devices_.isDeviceOnly() || devices_.isEmpty());
+  if (is_other_robot)
     devices_.forgetPaces();
-  scene_.setScene(std::move(scene));
-  if (!devices_.isDeviceOnly() || devices_.isEmpty())
-    scene_.prepare("");
 }
 
 void Scheduler::setScene(std::shared_ptr<const PlanningScene> scene)
 {
   const std::lock_guard<ChangeGate> lock(gate_);
   setOnCpu(std::move(scene));
-  devices_.prepare(taskOf(""));
+  if (devices_.isEmpty())
+    return;
+  try
+  {
+    devices_.prepare(taskOf(""));
+  }
+  catch (const std::exception&)
+  {
+    // The next batch brings them the scene.
+  }
 }
 
-void Scheduler::openDevices(std::shared_ptr<const PlanningScene> scene)
+void Scheduler::openDevices(std::shared_ptr<const PlanningScene> scene, bool one_suffices)
 {
   const std::lock_guard<ChangeGate> lock(gate_);
   setOnCpu(std::move(scene));
-  devices_.open(taskOf(""));
+  devices_.open(taskOf(""), one_suffices);
 }
 
 DeviceTask Scheduler::taskOf(const std::string& group)
@@ -178,7 +187,7 @@ BatchResult Scheduler::checkOnCaller(const StateBatch& asked, const Margins* mar
   BatchResult result;
   result.valid.assign(asked.count, 1);
   result.colliding.assign(asked.count, kNoPair);
-  CpuScene::Core(scene_, asked.group).check(asked.states, {0, asked.count}, margins, result);
+  CpuScene::Core(scene_, asked.group).check(asked.states, {{0, asked.count}}, margins, result);
   scene_.countBatch(asked.count, 0, asked.group);
   if (!devices_.isEmpty())
     noteWork({});
@@ -190,22 +199,23 @@ BatchResult Scheduler::checkTogether(const StateBatch& asked, std::optional<Marg
   const auto batch = std::make_shared<Batch>(asked.count, std::move(margins), availableCores());
   const Finally close([&] { batch->close(); });
   DeviceJoin devices(*this, asked, batch);
-  std::unique_lock<std::mutex> turn(turn_, std::defer_lock);
+  Progress progress(asked, *batch);
+  std::unique_lock<std::timed_mutex> turn(turn_, std::defer_lock);
   if (!devices_.isEmpty())
-  {
     devices_.noteProofs(asked.group, scene_.proofStage(asked.group));
-    if (devices_.isDeviceOnly())
-    {
-      turn.lock();
-      devices_.wait();
-    }
-    batch->letCoresHelp(!devices_.isDeviceOnly());  // before a device joins: it may already leave in `invite`
+  if (!devices_.isEmpty() && devices_.isDeviceOnly())
+  {
+    while (!turn.try_lock_for(kTick))
+      progress.tick();
+    while (!devices_.waitFor(kTick))
+      progress.tick();
+    batch->letCoresHelp(false);  // before a device joins: it may already leave in `invite`
     devices.invite();
     if (!devices.hasJoined())
       batch->letCoresHelp(true);
   }
   const auto start = Clock::now();
-  runCores(*batch, asked, devices);
+  runCores(*batch, asked, devices, progress);
   const double seconds = secondsSince(start);
   batch->close();
   BatchResult result = batch->takeResult();
@@ -220,9 +230,8 @@ BatchResult Scheduler::checkTogether(const StateBatch& asked, std::optional<Marg
 }
 
 /// Checks parts on all cores until the batch has ended. The calling thread is one of the cores.
-void Scheduler::runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devices)
+void Scheduler::runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devices, Progress& progress)
 {
-  Progress progress(asked);
   const auto orFail = [&batch](const auto& act)
   {
     try
@@ -236,26 +245,27 @@ void Scheduler::runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devi
   };
   const auto tick = [&]
   {
-    if (progress.tick(batch) && !devices_.isEmpty())
+    if (progress.tick() && !devices_.isEmpty())
       devices.invite();
   };
   const auto work = [&](bool is_caller)
   {
     std::optional<CpuScene::Core> core;
     BatchSize size(kCoreParts);
-    for (StateRange part = batch.takeForCore(size.size()); part.count != 0; part = batch.takeForCore(size.size()))
+    std::vector<StateRange> part;
+    for (batch.takeForCore(size.size(), part); !part.empty(); batch.takeForCore(size.size(), part))
     {
       if (!core)
         core.emplace(scene_, asked.group);
       const auto start = Clock::now();
-      core->check(asked.states, part, batch.margins(), batch.result());
+      const std::size_t states = core->check(asked.states, part, batch.margins(), batch.result());
       batch.answered(part);
-      size.took(part.count, secondsSince(start));
+      size.took(states, secondsSince(start));
       if (is_caller)
         tick();
     }
   };
-  while (!batch.isClosed() && !batch.isComplete())
+  for (bool is_first = true; !batch.isClosed() && !batch.isComplete(); is_first = false)
   {
     std::vector<std::thread> helpers;
     try
@@ -268,11 +278,18 @@ void Scheduler::runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devi
     {
       // No thread, or no memory for one. The threads that could be started do all the work.
     }
-    orFail([&] { work(true); });
+    orFail(
+        [&]
+        {
+          if (is_first && !devices_.isEmpty() && !devices.hasJoined())
+            devices.invite();
+          work(true);
+        });
     for (std::thread& helper : helpers)
       helper.join();
     batch.waitForCores(Clock::now() + kTick);
-    orFail(tick);
+    if (!batch.isClosed())
+      orFail(tick);
   }
 }
 

@@ -27,8 +27,9 @@ class Scheduler
   /// are opened if they are not open.
   void setScene(std::shared_ptr<const PlanningScene> scene);
 
-  /// Sets the first scene, waits until all devices have it, and throws their errors.
-  void openDevices(std::shared_ptr<const PlanningScene> scene);
+  /// Sets the first scene, and waits until all devices have it. Throws the first error if a device cannot be opened;
+  /// with `one_suffices` only if none can be.
+  void openDevices(std::shared_ptr<const PlanningScene> scene, bool one_suffices);
 
   /// See StateChecker.
   BatchResult check(const StateBatch& asked);
@@ -42,18 +43,19 @@ class Scheduler
 
  private:
   class DeviceJoin;
+  class Progress;
 
   void setOnCpu(std::shared_ptr<const PlanningScene> scene);
   DeviceTask taskOf(const std::string& group);
   BatchResult checkOnCaller(const StateBatch& asked, const Margins* margins);
   BatchResult checkTogether(const StateBatch& asked, std::optional<Margins> margins);
-  void runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devices);
+  void runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devices, Progress& progress);
   void noteWork(const GpuWork& work);
 
   ChangeGate gate_;  // checks share it; setScene holds it alone
   CpuScene scene_;
   DevicePool devices_;
-  std::mutex turn_;  // with device_only, batches wait for the devices
+  std::timed_mutex turn_;  // with device_only, batches wait for the devices
   std::atomic<std::uint64_t> batches_on_cpu_{0};
   mutable std::mutex work_mutex_;
   GpuWork last_work_;  // guarded by work_mutex_

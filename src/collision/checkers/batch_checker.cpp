@@ -10,7 +10,7 @@ namespace gpu_planning_scene::core
 BatchChecker::BatchChecker(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
   : BatchChecker(schedulerOf(options, openGpuDevice))
 {
-  scheduler_->openDevices(std::move(scene));
+  scheduler_->openDevices(std::move(scene), options.device == "all");
 }
 
 BatchChecker::BatchChecker(std::unique_ptr<Scheduler> scheduler) : scheduler_(std::move(scheduler)) {}
@@ -20,12 +20,6 @@ BatchChecker::~BatchChecker() = default;
 void BatchChecker::setScene(std::shared_ptr<const PlanningScene> scene)
 {
   scheduler_->setScene(std::move(scene));
-}
-
-BatchResult BatchChecker::check(const double* states, std::size_t count, const std::string& group,
-                                const JointNeighbourhood* around)
-{
-  return scheduler_->check({states, count, group, around});
 }
 
 BatchResult BatchChecker::checkBatch(const StateBatch& batch)

@@ -20,12 +20,6 @@ void CpuChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   scheduler_->setScene(std::move(scene));
 }
 
-BatchResult CpuChecker::check(const double* states, std::size_t count, const std::string& group,
-                              const JointNeighbourhood* around)
-{
-  return scheduler_->check({states, count, group, around});
-}
-
 BatchResult CpuChecker::checkBatch(const StateBatch& batch)
 {
   return scheduler_->check(batch);

@@ -24,15 +24,17 @@ constexpr std::size_t kStatesBeforeLanes = 16;
 
 CpuScene::CpuScene(const CheckerOptions& options) : options_(options), maker_(options) {}
 
-void CpuScene::setScene(std::shared_ptr<const PlanningScene> scene)
+void CpuScene::setScene(std::shared_ptr<const PlanningScene> scene, bool is_prepared)
 {
   requireRobot(scene);
   const std::lock_guard<std::mutex> lock(mutex_);
-  Group whole;
+  std::map<std::string, Group> groups;
+  Group& whole = groups[""];
   whole.problem = std::make_shared<const CollisionProblem>(maker_.make(*scene, "", &whole.report));
+  if (is_prepared)
+    prepare(whole, scene->robot);
   scene_ = std::move(scene);
-  groups_.clear();
-  groups_.emplace("", std::move(whole));
+  groups_.swap(groups);
 }
 
 CpuScene::Group& CpuScene::groupOf(const std::string& group)
@@ -58,7 +60,7 @@ SceneReport CpuScene::report(const std::string& name)
   Group& group = groupOf(name);
   if (!group.is_sampled)
   {
-    prepare(group);
+    prepare(group, scene_->robot);
     std::vector<BodyPair>& pairs = group.report.colliding_in_samples;
     const std::vector<BodyPair> sampled = collidingInSamples(*scene_, *group.problem, *group.within);
     pairs.insert(pairs.end(), sampled.begin(), sampled.end());
@@ -77,17 +79,17 @@ SceneReport CpuScene::report(const std::string& name)
 void CpuScene::prepare(const std::string& group)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  prepare(groupOf(group));
+  prepare(groupOf(group), scene_->robot);
 }
 
-void CpuScene::prepare(Group& group)
+void CpuScene::prepare(Group& group, const std::shared_ptr<const RobotModel>& robot)
 {
   if (group.within)
     return;
   group.within = forest_->traversalOf(group.problem);
   // With a tolerance, the traversal may call states colliding that the proofs call free.
   if (options_.reductions.proofs && options_.tolerance == 0.0 && LaneChecker::suits(*group.problem))
-    group.lanes = std::make_unique<LaneChecker>(scene_->robot, group.problem, forest_->forest(), *group.within);
+    group.lanes = std::make_unique<LaneChecker>(robot, group.problem, forest_->forest(), *group.within);
 }
 
 ProofStage CpuScene::proofStage(Group& group) const
@@ -106,7 +108,7 @@ ProofStage CpuScene::proofStage(const std::string& name)
   // Without proofs in sight, the trees of the CPU are not needed yet.
   if (group.problem->always_colliding || (!group.within && checked_ <= kStatesBeforeProofs))
     return ProofStage::None;
-  prepare(group);
+  prepare(group, scene_->robot);
   return proofStage(group);
 }
 
@@ -174,7 +176,7 @@ CpuScene::Core::Core(CpuScene& scene, const std::string& group) : scene_(scene),
   group_ = &scene_.groupOf(group);
   if (group_->problem->always_colliding)
     return;
-  scene_.prepare(*group_);
+  scene_.prepare(*group_, scene_.scene_->robot);
   if (group_->scratches.empty())
   {
     group_->scratches.reserve(++group_->scratch_count);  // so that giving it back needs no memory
@@ -196,19 +198,28 @@ CpuScene::Core::~Core()
   group_->scratches.push_back(std::move(scratch_));
 }
 
-void CpuScene::Core::check(const double* states, const StateRange& part, const Margins* margins, BatchResult& result)
+std::size_t CpuScene::Core::check(const double* states, const std::vector<StateRange>& part, const Margins* margins,
+                                  BatchResult& result)
 {
-  if (part.count == 0)
-    return;
+  std::size_t count = 0;
+  for (const StateRange& range : part)
+    count += range.count;
+  if (count == 0)
+    return 0;
   if (const auto& colliding = group_->problem->always_colliding)
   {
-    std::fill_n(&result.valid[part.begin], part.count, 0);
-    std::fill_n(&result.colliding[part.begin], part.count, *colliding);
-    return;
+    for (const StateRange& range : part)
+    {
+      std::fill_n(&result.valid[range.begin], range.count, 0);
+      std::fill_n(&result.colliding[range.begin], range.count, *colliding);
+    }
+    return count;
   }
-  const bool by_lanes = scene_.countPart(part.count, *group_, *scratch_, margins != nullptr);
-  for (std::size_t i = part.begin; i < part.end(); i += lanes::kLanes)
-    checkBlock(states, i, std::min<std::size_t>(i + lanes::kLanes, part.end()), margins, by_lanes, result);
+  const bool by_lanes = scene_.countPart(count, *group_, *scratch_, margins != nullptr);
+  for (const StateRange& range : part)
+    for (std::size_t i = range.begin; i < range.end(); i += lanes::kLanes)
+      checkBlock(states, i, std::min<std::size_t>(i + lanes::kLanes, range.end()), margins, by_lanes, result);
+  return count;
 }
 
 /// Checks states begin to end - 1. `by_lanes`: the proofs of the lane checker are ready.

@@ -28,8 +28,8 @@ class CpuScene
   /// Throws Error for an invalid tolerance.
   explicit CpuScene(const CheckerOptions& options);
 
-  /// Throws Error and keeps the old scene if this one cannot be used.
-  void setScene(std::shared_ptr<const PlanningScene> scene);
+  /// `is_prepared`: prepares the group "" too. Throws Error and keeps the old scene if this one cannot be used.
+  void setScene(std::shared_ptr<const PlanningScene> scene, bool is_prepared);
   const std::shared_ptr<const PlanningScene>& scene() const { return scene_; }
 
   /// This and the functions below throw Error for an unknown group.
@@ -72,7 +72,9 @@ class CpuScene
 
     /// For each state of `part` that collides, sets `valid` to 0, and its pair; leaves the other states as they are.
     /// `states`, `margins`: of the whole batch. All states are allowed, also those for which `problem` is not valid.
-    void check(const double* states, const StateRange& part, const Margins* margins, BatchResult& result);
+    /// Returns the number of states.
+    std::size_t check(const double* states, const std::vector<StateRange>& part, const Margins* margins,
+                      BatchResult& result);
 
    private:
     void checkBlock(const double* states, std::size_t begin, std::size_t end, const Margins* margins, bool by_lanes,
@@ -123,7 +125,7 @@ class CpuScene
   };
   // The caller of these functions holds mutex_.
   Group& groupOf(const std::string& group);
-  void prepare(Group& group);
+  void prepare(Group& group, const std::shared_ptr<const RobotModel>& robot);
   ProofStage proofStage(Group& group) const;
   void loadProofs(Group& group, std::size_t count) const;
   bool countPart(std::size_t count, Group& group, Scratch& scratch, bool has_margins);

@@ -13,10 +13,10 @@
 #include "gpu_planning_scene/error.h"
 #include "shader_constants.h"
 
-// Runs all GL work on the GL thread of this object. The GPU reports each state as a hit, as free or as undecided; the
-// calling thread then decides the undecided states with the exact checker, on all cores. Inexact arithmetic with error
-// bounds in front of exact arithmetic is the idea of S. Fortune, C. J. Van Wyk: Efficient exact arithmetic for
-// computational geometry. SoCG 1993.
+// Runs all GL work on the GL thread of this object. The GPU reports each state as a hit, as free or as undecided.
+// Others then decide the undecided states: the cores that work on the batch, or without a batch this object, on all
+// cores. Inexact arithmetic with error bounds in front of exact arithmetic is the idea of S. Fortune, C. J. Van Wyk:
+// Efficient exact arithmetic for computational geometry. SoCG 1993.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -72,8 +72,9 @@ void GpuChecker::release()
           pairs_.reset();
         });
   }
-  catch (const DeviceLost&)  // a lost context throws after each job; there is nothing left to release
+  catch (const std::exception&)
   {
+    // A lost context throws after each job; there is nothing left to release.
   }
 }
 
@@ -179,12 +180,6 @@ void GpuChecker::useProofs(const std::shared_ptr<const LaneScene>& scene)
   }
 }
 
-void GpuChecker::prepareMargins()
-{
-  requireUsableScene();
-  startOnDevice([&] { pairs_->prepareMargins(); }).get();
-}
-
 std::future<void> GpuChecker::startOnDevice(std::function<void()> job)
 {
   return gl_.start(
@@ -278,7 +273,7 @@ class AllStates : public PartSource
     taken_ = next.end();
     return next;
   }
-  void bring(const StateRange& states, const std::uint32_t* verdicts) override
+  void bring(const StateRange& states, const std::uint32_t* verdicts, const GpuWork& /*work*/) override
   {
     brought_ += states.count;
     for (std::size_t i = 0; i < states.count; ++i)

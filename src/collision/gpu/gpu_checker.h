@@ -25,15 +25,15 @@
 
 namespace gpu_planning_scene::core
 {
-/// Checks a collision problem on a GPU. The states that float32 leaves undecided are decided on the CPU, by a traversal
-/// of the same problem in double precision. One caller at a time, on any thread. Each method throws DeviceLost
-/// if the device fails or its context is lost; the object is then unusable.
+/// Checks a collision problem on a GPU. float32 leaves some states undecided. One caller at a time, on any thread. Each
+/// method throws DeviceLost if the device fails or its context is lost; the object is then unusable.
 class GpuChecker
 {
  public:
   /// Throws Error if there is no usable device, if a shader does not compile, or if max_batch is 0. `trees`: the CPU's
-  /// trees for undecided states; other users may share them, one at a time. Null: its own trees.
-  GpuChecker(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees = nullptr);
+  /// trees for the undecided states of `check` with a result and of `checkPoses`; other users may share them, one at a
+  /// time. Null: its own trees.
+  explicit GpuChecker(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees = nullptr);
   ~GpuChecker();
 
   /// Builds the trees. `robot`: the robot whose states are checked; null if the problem has no robot model. Throws
@@ -50,9 +50,6 @@ class GpuChecker
 
   /// Makes the scene for useProofs from the robot's proofs.
   std::shared_ptr<const LaneScene> laneSceneOf(const std::shared_ptr<const RobotProofs>& proofs);
-
-  /// Compiles the programs for batches with margins, if this has not been done, so that no check has to.
-  void prepareMargins();
 
   /// Checks the states of `parts` until there is none, and brings their verdicts. `states`: rows of the robot's
   /// variables, each in PlaceableStates. `margins`: for these states and the selected pairs; null: none.

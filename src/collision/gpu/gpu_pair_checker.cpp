@@ -217,7 +217,7 @@ void GpuPairChecker::bringFree(PartSource& parts) const
   for (StateRange states = parts.take(max_states_); states.count != 0; states = parts.take(max_states_))
   {
     verdicts.assign(states.count, VERDICT_FREE);
-    parts.bring(states, verdicts.data());
+    parts.bring(states, verdicts.data(), {});
   }
 }
 
@@ -251,7 +251,7 @@ void GpuPairChecker::finish(const Work& work, Part& part)
   if (whole.count == 1)
   {
     const std::uint32_t undecided = VERDICT_UNDECIDED;
-    return work.parts.bring(whole, &undecided);
+    return work.parts.bring(whole, &undecided, {});
   }
   work.size.tooLarge(whole.count);
   const std::size_t half = whole.count / 2;
@@ -270,13 +270,15 @@ bool GpuPairChecker::fetch(Part& part, PartSource& to)
   refuseLostContext();  // a reset may have left wrong verdicts behind
   if (words[COUNTER_OVERFLOW] != 0 || words[COUNTER_DONE] != part.serial)
     return false;
-  work_.states += part.states.count;
-  work_.candidates += words[LIST_CANDIDATES + LIST_LENGTH];
-  work_.root_pairs += words[LIST_ROOT_PAIRS + LIST_LENGTH];
-  work_.traversed += words[LIST_MESH_ENTRIES + LIST_LENGTH] + words[LIST_SOLID_ENTRIES + LIST_LENGTH];
+  GpuWork work;
+  work.states = part.states.count;
+  work.candidates = words[LIST_CANDIDATES + LIST_LENGTH];
+  work.root_pairs = words[LIST_ROOT_PAIRS + LIST_LENGTH];
+  work.traversed = std::size_t(words[LIST_MESH_ENTRIES + LIST_LENGTH]) + words[LIST_SOLID_ENTRIES + LIST_LENGTH];
+  work_ += work;
   const std::uint32_t* const verdicts = words + offsets.verdicts / sizeof(std::uint32_t);
   learnOrder(verdicts, part.states.count);
-  to.bring(part.states, verdicts);
+  to.bring(part.states, verdicts, work);
   return true;
 }
 

@@ -1,9 +1,9 @@
 // Each state of a batch is answered once, whoever takes it and whatever happens to the devices.
 
-#include <atomic>
+#include <chrono>
 #include <future>
-#include <numeric>
 #include <random>
+#include <stdexcept>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -16,6 +16,23 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::size_t kAny = 1'000'000;
+
+/// The states of a core's part.
+std::vector<std::size_t> rowsOf(const std::vector<StateRange>& part)
+{
+  std::vector<std::size_t> rows;
+  for (const StateRange& range : part)
+    for (std::size_t i = range.begin; i < range.end(); ++i)
+      rows.push_back(i);
+  return rows;
+}
+
+std::vector<StateRange> takenBy(Batch& batch, std::size_t most = kAny)
+{
+  std::vector<StateRange> part;
+  batch.takeForCore(most, part);
+  return part;
+}
 
 class BatchParts : public testing::Test
 {
@@ -38,13 +55,14 @@ TEST_F(BatchParts, OfCoresAreSmallAndBecomeSmaller)
   const auto batch = batchOf(10'000);
   std::size_t last = kAny;
   std::size_t next = 0;
-  for (StateRange part = batch->takeForCore(kAny); part.count != 0; part = batch->takeForCore(kAny))
+  for (std::vector<StateRange> part = takenBy(*batch); !part.empty(); part = takenBy(*batch))
   {
-    EXPECT_EQ(part.begin, next);
-    EXPECT_LE(part.count, last);
-    EXPECT_LE(part.count, 1'250U) << "an eighth, as there are two cores";
-    last = part.count;
-    next = part.end();
+    const std::vector<std::size_t> rows = rowsOf(part);
+    EXPECT_EQ(rows.front(), next);
+    EXPECT_LE(rows.size(), last);
+    EXPECT_LE(rows.size(), 1'250U) << "an eighth, as there are two cores";
+    last = rows.size();
+    next = rows.back() + 1;
     batch->answered(part);
   }
   EXPECT_EQ(next, 10'000U);
@@ -66,7 +84,7 @@ TEST_F(BatchParts, OfDevicesHaveTheirShareOfWhatWaits)
 
 TEST_F(BatchParts, OfACoreHaveAtMostAsManyStatesAsItWants)
 {
-  EXPECT_EQ(batchOf(10'000)->takeForCore(8).count, 8U);
+  EXPECT_EQ(rowsOf(takenBy(*batchOf(10'000), 8)).size(), 8U);
 }
 
 TEST_F(BatchParts, ThatOnlyCoresCanCheckHaveNoAnswerOfADevice)
@@ -82,12 +100,10 @@ TEST_F(BatchParts, ThatOnlyCoresCanCheckHaveNoAnswerOfADevice)
   batch->endAnswer(mine, {4, 5});
   EXPECT_EQ(batch->answeredCount(), 5U);
   std::vector<int> by_cores(10, 0);
-  for (StateRange own = batch->takeForCore(kAny); own.count != 0; own = batch->takeForCore(kAny))
-  {
-    for (std::size_t i = own.begin; i < own.end(); ++i)
-      ++by_cores[i];
-    batch->answered(own);
-  }
+  const std::vector<StateRange> own = takenBy(*batch);
+  for (const std::size_t row : rowsOf(own))
+    ++by_cores[row];
+  batch->answered(own);
   EXPECT_EQ(by_cores, (std::vector<int>{1, 0, 0, 1, 1, 1, 0, 0, 0, 1}));
   const BatchResult result = batch->takeResult();
   EXPECT_EQ(result.valid, std::vector<std::uint8_t>(10, 1));
@@ -98,9 +114,9 @@ TEST_F(BatchParts, ThatOnlyCoresCanCheckHaveNoAnswerOfADevice)
 TEST_F(BatchParts, WithoutAnAnswerAreNeverFree)
 {
   const auto batch = batchOf(100);
-  batch->answered(batch->takeForCore(kAny));
-  batch->answered({0, 32});
-  batch->answered({0, 36});
+  batch->answered(takenBy(*batch));
+  batch->answered({{0, 32}});
+  batch->answered({{0, 36}});
   EXPECT_TRUE(batch->isComplete()) << "by its count, although states have no answer";
   batch->close();
   EXPECT_THROW(batch->takeResult(), std::logic_error);
@@ -117,13 +133,9 @@ TEST_F(BatchParts, ThatADeviceLeavesUndecidedGoToTheCores)
   batch->endAnswer(mine, {2, 3, 7});
   EXPECT_EQ(batch->answeredCount(), 7U);
   EXPECT_EQ(batch->result().undecided_states, 3U);
-  std::size_t decided = 0;
-  for (StateRange own = batch->takeForCore(kAny); own.count != 0; own = batch->takeForCore(kAny))
-  {
-    decided += own.count;
-    batch->answered(own);
-  }
-  EXPECT_EQ(decided, 3U);
+  const std::vector<StateRange> own = takenBy(*batch);
+  EXPECT_EQ(rowsOf(own), (std::vector<std::size_t>{7, 2, 3})) << "one part, although they are scattered";
+  batch->answered(own);
   EXPECT_TRUE(batch->isComplete());
 }
 
@@ -148,9 +160,9 @@ TEST_F(BatchParts, AreOvertakenFromTheirEndIfNoStateWaits)
   batch->join(1);
   const StateRange part = batch->takeForDevice(1, kAny, 1.0);
   ASSERT_EQ(part.count, 100U);
-  const StateRange overtaken = batch->takeForCore(kAny);
-  EXPECT_EQ(overtaken.count, 32U);
-  EXPECT_EQ(overtaken.end(), 100U);
+  const std::vector<StateRange> overtaken = takenBy(*batch);
+  EXPECT_EQ(rowsOf(overtaken).size(), 32U);
+  EXPECT_EQ(rowsOf(overtaken).back(), 99U);
   batch->answered(overtaken);
   const StateRange mine = batch->beginAnswer(1, part);
   EXPECT_EQ(mine.begin, 0U);
@@ -165,7 +177,7 @@ TEST_F(BatchParts, ThatWereOvertakenWhollyNeedNoEndOfTheirAnswer)
   const auto batch = batchOf(100);
   batch->join(1);
   const StateRange part = batch->takeForDevice(1, kAny, 1.0);
-  for (StateRange own = batch->takeForCore(kAny); own.count != 0; own = batch->takeForCore(kAny))
+  for (std::vector<StateRange> own = takenBy(*batch); !own.empty(); own = takenBy(*batch))
     batch->answered(own);
   EXPECT_EQ(batch->beginAnswer(1, part).count, 0U);
   EXPECT_TRUE(batch->isComplete());
@@ -180,21 +192,74 @@ TEST_F(BatchParts, OfAClosedBatchAreNeitherTakenNorAnswered)
   batch->close();
   EXPECT_EQ(batch->beginAnswer(1, part).count, 0U);
   EXPECT_EQ(batch->takeForDevice(1, 500, 1.0).count, 0U);
-  EXPECT_EQ(batch->takeForCore(kAny).count, 0U);
+  EXPECT_TRUE(takenBy(*batch).empty());
 }
 
-/// Threads take, answer, lose and overtake parts at random.
-TEST_F(BatchParts, AreEachAnsweredOnce)
+TEST_F(BatchParts, ThatAreOvertakenWhileTheyAreBroughtInPiecesKeepTheirFirstStates)
+{
+  const auto batch = batchOf(100);
+  batch->join(1);
+  ASSERT_EQ(batch->takeForDevice(1, kAny, 1.0).count, 100U);
+  const StateRange first = batch->beginAnswer(1, {0, 50});
+  EXPECT_EQ(first.count, 50U);
+  batch->endAnswer(first, {});
+  batch->answered(takenBy(*batch));  // 68 to 99
+  const StateRange second = batch->beginAnswer(1, {50, 25});
+  EXPECT_EQ(second.begin, 50U);
+  EXPECT_EQ(second.count, 18U) << "up to the overtaken ones";
+  batch->endAnswer(second, {});
+  EXPECT_EQ(batch->beginAnswer(1, {75, 25}).count, 0U);
+  EXPECT_TRUE(batch->isComplete());
+}
+
+TEST_F(BatchParts, OfADeviceThatJoinsAgainAreNew)
+{
+  const auto batch = batchOf(1'000);
+  batch->join(1);
+  const StateRange part = batch->takeForDevice(1, 600, 1.0);
+  batch->leave(1);
+  EXPECT_FALSE(batch->hasJoined(1));
+  batch->join(1);
+  EXPECT_EQ(batch->beginAnswer(1, part).count, 0U) << "it went back";
+  const StateRange again = batch->takeForDevice(1, kAny, 1.0);
+  EXPECT_EQ(batch->beginAnswer(1, again).count, again.count);
+  batch->endAnswer(again, {});
+  EXPECT_EQ(batch->answeredCount(), again.count);
+}
+
+TEST_F(BatchParts, AreWaitedForByCloseWhileADeviceWrites)
+{
+  const auto batch = batchOf(100);
+  batch->join(1);
+  const StateRange mine = batch->beginAnswer(1, batch->takeForDevice(1, kAny, 1.0));
+  batch->fail(std::make_exception_ptr(std::runtime_error("first")));
+  auto closing = std::async(std::launch::async, [&] { batch->close(); });
+  EXPECT_EQ(closing.wait_for(std::chrono::milliseconds(20)), std::future_status::timeout);
+  batch->endAnswer(mine, {});
+  closing.get();
+  batch->fail(std::make_exception_ptr(std::logic_error("second")));
+  EXPECT_THROW(batch->takeResult(), std::runtime_error);
+}
+
+/// Threads take, answer, lose and overtake parts at random. Every third state collides.
+TEST_F(BatchParts, AreEachAnsweredOnceAndAsTheyShould)
 {
   for (std::uint64_t seed = kSeed; seed < kSeed + 20; ++seed)
   {
+    constexpr std::size_t kStates = 20'000;
     std::vector<std::size_t> only_cores;
     std::mt19937_64 random(seed);
-    for (std::size_t i = 0; i < 20'000; ++i)
+    for (std::size_t i = 0; i < kStates; ++i)
       if (random() % 50 == 0)
         only_cores.push_back(i);
-    const auto batch = batchOf(20'000, only_cores, 4);
-    std::vector<std::atomic<int>> answers(20'000);
+    const auto batch = batchOf(kStates, only_cores, 4);
+    const auto write = [&](std::size_t row, bool hits)
+    {
+      if (!hits)
+        return;
+      batch->result().valid[row] = 0;
+      batch->result().colliding[row] = {0, 1};
+    };
     for (std::size_t device = 0; device < 2; ++device)
       batch->join(device);
     const auto work_as_device = [&](std::size_t device)
@@ -211,10 +276,13 @@ TEST_F(BatchParts, AreEachAnsweredOnce)
         std::vector<std::size_t> undecided;
         const StateRange mine = batch->beginAnswer(device, part);
         for (std::size_t i = mine.begin; i < mine.end(); ++i)
-          if (own() % 100 == 0)
+        {
+          const bool is_undecided = own() % 100 == 0;
+          if (is_undecided)
             undecided.push_back(i);
-          else if (batch->deviceRows().only_cores[i] == 0)
-            ++answers[i];
+          const bool may_be_wrong = is_undecided || batch->deviceRows().only_cores[i] != 0;
+          write(i, may_be_wrong ? own() % 2 == 0 : i % 3 == 0);
+        }
         if (mine.count != 0)
           batch->endAnswer(mine, undecided);
       }
@@ -224,10 +292,10 @@ TEST_F(BatchParts, AreEachAnsweredOnce)
     {
       while (!batch->isComplete())
       {
-        const StateRange part = batch->takeForCore(kAny);
-        for (std::size_t i = part.begin; i < part.end(); ++i)
-          ++answers[i];
-        if (part.count != 0)
+        const std::vector<StateRange> part = takenBy(*batch);
+        for (const std::size_t row : rowsOf(part))
+          write(row, row % 3 == 0);
+        if (!part.empty())
           batch->answered(part);
         else
           batch->waitForCores(std::chrono::steady_clock::now() + std::chrono::milliseconds(1));
@@ -241,8 +309,13 @@ TEST_F(BatchParts, AreEachAnsweredOnce)
     }
     for (std::thread& thread : threads)
       thread.join();
-    for (std::size_t i = 0; i < answers.size(); ++i)
-      ASSERT_EQ(answers[i], 1) << "state " << i << ", seed " << seed;
+    batch->close();
+    const BatchResult result = batch->takeResult();  // throws if a state has no answer, or if one has two
+    for (std::size_t i = 0; i < kStates; ++i)
+    {
+      ASSERT_EQ(result.valid[i], i % 3 == 0 ? 0 : 1) << "state " << i << ", seed " << seed;
+      ASSERT_EQ(result.colliding[i], i % 3 == 0 ? (BodyPair{0, 1}) : kNoPair) << "state " << i << ", seed " << seed;
+    }
   }
 }
 }  // namespace

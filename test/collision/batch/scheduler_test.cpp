@@ -44,7 +44,7 @@ class SchedulerTest : public testing::Test
             std::make_unique<DeviceWorker>([script] { return std::make_unique<ScriptedDevice>(script); }, limits_));
       scheduler_ = std::make_unique<Scheduler>(options_, std::move(workers), device_only_);
       if (opens_at_start_)
-        scheduler_->openDevices(cartScene(1.0, 1));
+        scheduler_->openDevices(cartScene(1.0, 1), one_suffices_);
       else
         scheduler_->setScene(cartScene(1.0, 1));
     }
@@ -70,6 +70,14 @@ class SchedulerTest : public testing::Test
         ADD_FAILURE() << "the pair of state " << i;
     EXPECT_EQ(result.revision, revision);
     return result;
+  }
+
+  /// With an object at x = 3.5 m, which no state within the limits reaches.
+  static std::shared_ptr<const PlanningScene> sceneWithAFarObject()
+  {
+    auto scene = std::make_shared<PlanningScene>(*cartScene(-1.0, 2));
+    scene->objects.push_back({"far", Eigen::Isometry3d(Eigen::Translation3d(3.5, 0.0, 0.0)), {{Box{{0.5, 1, 1}}}}});
+    return scene;
   }
 
   /// Waits until the device is destroyed, for at most 10 s.
@@ -98,6 +106,7 @@ class SchedulerTest : public testing::Test
   DeviceLimits limits_;
   bool device_only_ = true;
   bool opens_at_start_ = true;
+  bool one_suffices_ = false;
   std::unique_ptr<Scheduler> scheduler_;
 };
 
@@ -167,9 +176,7 @@ TEST_F(SchedulerTest, TheCoresDecideWhatADeviceLeavesUndecided)
 
 TEST_F(SchedulerTest, StatesOutsideTheLimitsAreForTheCores)
 {
-  auto scene = std::make_shared<PlanningScene>(*cartScene(-1.0, 2));
-  scene->objects.push_back({"far", Eigen::Isometry3d(Eigen::Translation3d(3.5, 0.0, 0.0)), {{Box{{0.5, 1, 1}}}}});
-  scheduler().setScene(scene);
+  scheduler().setScene(sceneWithAFarObject());
   std::vector<double> states = cartStates(kCount);
   for (std::size_t i = 0; i < kCount; i += 1000)
     states[i] = 3.5;  // the device would find them free, because no state within the limits reaches the object
@@ -283,6 +290,44 @@ TEST_F(SchedulerTest, TheCpuAnswersUntilALaterDeviceOpens)
   }
 }
 
+/// A static scene has no later change at which the device could be opened.
+TEST_F(SchedulerTest, ABatchOpensADeviceAgainThatCouldNotBeOpened)
+{
+  device_only_ = false;
+  opens_at_start_ = false;
+  limits_.retry_seconds = 0.05;
+  device_->opens = {refuse};
+  expectRight(kCount);
+  EXPECT_EQ(device_->opened, 0);
+  restTime();
+  for (int i = 0; i < 100 && scheduler().deviceName() == "CPU"; ++i)
+  {
+    expectRight(kCount);
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  EXPECT_EQ(scheduler().deviceName(), "a device");
+}
+
+TEST_F(SchedulerTest, OneOfSeveralDevicesSufficesIfTheCallerSaysSo)
+{
+  const auto second = std::make_shared<DeviceScript>();
+  second->name = "B";
+  devices_.push_back(second);
+  one_suffices_ = true;
+  device_->opens = {refuse};
+  EXPECT_EQ(expectRight(kCount).device_states, kCount);
+  EXPECT_EQ(scheduler().deviceName(), "B");
+  EXPECT_NE(scheduler().deviceWarning().find("no usable device"), std::string::npos) << scheduler().deviceWarning();
+  scheduler_.reset();
+  device_->opens = {refuse};
+  second->opens = {refuse};
+  EXPECT_EQ(errorOf([&] { scheduler(); }), "no usable device");
+  scheduler_.reset();
+  one_suffices_ = false;
+  second->opens = {refuse};
+  EXPECT_EQ(errorOf([&] { scheduler(); }), "no usable device");
+}
+
 TEST_F(SchedulerTest, ASceneThatTheDeviceCannotHoldIsTheCpus)
 {
   scheduler();
@@ -335,6 +380,69 @@ TEST_F(SchedulerTest, ADeviceThatHangsDoesNotDelayAnAnswerOfTheCores)
     EXPECT_EQ(expectRight(kMany).device_states, 0U);
   EXPECT_EQ(scheduler().history().losses, 0U) << "its limit has not passed";
   gate->set_value();
+}
+
+/// Its thread comes back from the driver when the device counts as hanging, and must not open it again.
+TEST_F(SchedulerTest, ADeviceThatHangsWhenItIsDroppedIsNotOpenedAgain)
+{
+  limits_.device_seconds = 0.05;
+  limits_.retry_seconds = 0.0;
+  scheduler();
+  const auto gate = std::make_shared<std::promise<void>>();
+  device_->parts = {lose};
+  device_->ends = {[gate] { gate->get_future().wait(); }};
+  EXPECT_EQ(expectRight(kCount).device_states, 0U);
+  EXPECT_EQ(scheduler().history().losses, 1U);
+  gate->set_value();
+  EXPECT_TRUE(isGone());
+  scheduler_.reset();
+  EXPECT_EQ(device_->opened, 1);
+}
+
+TEST_F(SchedulerTest, ADeviceThatHangsWhileItOpensIsAbandoned)
+{
+  limits_.device_seconds = 0.05;
+  opens_at_start_ = false;
+  const auto gate = std::make_shared<std::promise<void>>();
+  device_->opens = {[gate] { gate->get_future().wait(); }};
+  EXPECT_EQ(expectRight(kCount).device_states, 0U);
+  gate->set_value();
+  EXPECT_TRUE(scheduler().history().on_cpu);
+  EXPECT_TRUE(scheduler().history().rebuild_failed);
+}
+
+TEST_F(SchedulerTest, ACheckThatWaitsForTheDeviceCanBeEnded)
+{
+  limits_.device_seconds = 10.0;
+  scheduler();
+  const auto gate = std::make_shared<std::promise<void>>();
+  device_->prepares = {[gate] { gate->get_future().wait(); }};
+  scheduler().setScene(cartScene(-1.0, 2));
+  const std::vector<double> states = cartStates(10);
+  StateBatch batch{states.data(), states.size()};
+  batch.go_on = [](std::size_t /*answered*/) { return false; };
+  EXPECT_THROW(scheduler().check(batch), Cancelled);
+  gate->set_value();
+  EXPECT_EQ(expectRight(10, -1.0, 2).device_states, 10U);
+}
+
+TEST_F(SchedulerTest, AnErrorOfTheDeviceInABatchLosesNoState)
+{
+  scheduler();
+  device_->parts = {nullptr, [] { throw Error("the driver says no"); }};
+  expectRight(kCount);
+  EXPECT_TRUE(scheduler().history().on_cpu);
+  EXPECT_EQ(scheduler().history().last_error, "the driver says no");
+}
+
+TEST_F(SchedulerTest, StatesThatNoDeviceCanPlaceAreForTheCores)
+{
+  scheduler().setScene(sceneWithAFarObject());
+  const std::vector<double> outside(1000, 3.5);
+  const BatchResult result = scheduler().check({outside.data(), outside.size()});
+  EXPECT_EQ(result.valid, std::vector<std::uint8_t>(1000, 0));
+  EXPECT_EQ(result.device_states, 0U);
+  EXPECT_EQ(device_->states, 0U);
 }
 
 TEST_F(SchedulerTest, ADeviceThatHangsAtItsEndIsAbandoned)
@@ -395,7 +503,10 @@ TEST_F(SchedulerTest, ANewFaultOfADeviceIsToldAndCountsAsALoss)
 {
   expectRight(10);
   EXPECT_EQ(scheduler().history().losses, 0U);
-  device_->fault = "no doubles";
+  {
+    const std::lock_guard<std::mutex> lock(device_->mutex);
+    device_->fault = "no doubles";
+  }
   for (int i = 0; i < 2; ++i)
   {
     expectRight(10);
@@ -495,27 +606,40 @@ TEST_F(SchedulerTest, ADeviceIsDestroyedOnItsThread)
   EXPECT_NE(device_->destroyed_on[0], std::this_thread::get_id());
 }
 
+/// Also while scenes change, and while devices are lost and come late.
 TEST_F(SchedulerTest, ChecksOfSeveralThreadsRunSideBySide)
 {
-  device_only_ = false;
-  scheduler();
-  std::vector<std::future<void>> callers;
-  for (int caller = 0; caller < 4; ++caller)
-    callers.push_back(std::async(std::launch::async,
-                                 [this]
-                                 {
-                                   for (std::size_t count : {1U, 100U, 5'000U, 30'000U})
+  for (const bool device_only : {false, true})
+  {
+    device_only_ = device_only;
+    limits_.retry_seconds = 0.01;
+    limits_.max_losses = 1000;
+    if (devices_.size() == 1)
+      devices_.push_back(std::make_shared<DeviceScript>());
+    for (const Script& device : devices_)
+      for (int i = 0; i < 200; ++i)
+        device->parts.push_back(i % 7 == 3 ? lose
+                                           : [] { std::this_thread::sleep_for(std::chrono::microseconds(100)); });
+    scheduler_.reset();
+    scheduler();
+    std::vector<std::future<void>> callers;
+    for (int caller = 0; caller < 4; ++caller)
+      callers.push_back(std::async(std::launch::async,
+                                   [this]
                                    {
-                                     const std::vector<double> states = cartStates(count);
-                                     const BatchResult result = scheduler_->check({states.data(), count});
-                                     const double side = result.revision % 2 == 1 ? 1.0 : -1.0;
-                                     EXPECT_EQ(result.valid, cartAnswers(states, side));
-                                   }
-                                 }));
-  for (std::uint64_t revision = 2; revision < 6; ++revision)
-    scheduler().setScene(cartScene(revision % 2 == 1 ? 1.0 : -1.0, revision));
-  for (std::future<void>& caller : callers)
-    caller.get();
+                                     for (std::size_t count : {1U, 100U, 5'000U, 30'000U, 30'000U, 30'000U})
+                                     {
+                                       const std::vector<double> states = cartStates(count);
+                                       const BatchResult result = scheduler_->check({states.data(), count});
+                                       const double side = result.revision % 2 == 1 ? 1.0 : -1.0;
+                                       EXPECT_EQ(result.valid, cartAnswers(states, side));
+                                     }
+                                   }));
+    for (std::uint64_t revision = 2; revision < 6; ++revision)
+      scheduler().setScene(cartScene(revision % 2 == 1 ? 1.0 : -1.0, revision));
+    for (std::future<void>& caller : callers)
+      caller.get();
+  }
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

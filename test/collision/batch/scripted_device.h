@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "collision/batch/batch.h"
 #include "collision/batch/batch_device.h"
+#include "collision/batch/device_parts.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/planning_scene.h"
 #include "model/model_testing.h"
@@ -92,18 +92,15 @@ class ScriptedDevice : public BatchDevice
     body_ = task.scene->world.at(0).body;
   }
 
-  void check(Batch& batch, std::size_t device, const Take& take) override
+  void check(DeviceParts& parts) override
   {
-    for (StateRange part = take(size()); part.count != 0; part = take(size()))
+    for (StateRange part = parts.take(size()); part.count != 0; part = parts.take(size()))
     {
       script_->next(script_->parts);
-      const StateRange mine = batch.beginAnswer(device, part);
-      std::vector<std::size_t> open;
-      for (std::size_t i = mine.begin; i < mine.end(); ++i)
-        answer(i, batch, open);
-      script_->states += mine.count;
-      if (mine.count != 0)
-        batch.endAnswer(mine, open);
+      const std::size_t piece = part.count > 2 ? part.count / 2 : part.count;  // a part may be brought in pieces
+      for (const StateRange& brought :
+           {StateRange{part.begin, piece}, StateRange{part.begin + piece, part.count - piece}})
+        bring(brought, parts);
     }
   }
 
@@ -121,16 +118,28 @@ class ScriptedDevice : public BatchDevice
     const std::lock_guard<std::mutex> lock(script_->mutex);
     return script_->part_size;
   }
-  void answer(std::size_t i, Batch& batch, std::vector<std::size_t>& open)
+  void bring(const StateRange& brought, DeviceParts& parts)
+  {
+    if (brought.count == 0)
+      return;
+    const StateRange mine = parts.beginAnswer(brought);
+    std::vector<std::size_t> open;
+    for (std::size_t i = mine.begin; i < mine.end(); ++i)
+      answer(i, parts, open);
+    script_->states += mine.count;
+    if (mine.count != 0)
+      parts.endAnswer(mine, open);
+  }
+  void answer(std::size_t i, DeviceParts& parts, std::vector<std::size_t>& open)
   {
     const std::lock_guard<std::mutex> lock(script_->mutex);
     if (std::find(script_->undecided.begin(), script_->undecided.end(), i) != script_->undecided.end())
       return open.push_back(i);
-    const double margin = batch.margins() ? *batch.margins()->of(i) : 0.0;
-    if (batch.deviceRows().states[i] * side_ < -margin)
+    const double margin = parts.margins() ? *parts.margins()->of(i) : 0.0;
+    if (parts.states()[i] * side_ < -margin)
       return;
-    batch.result().valid[i] = 0;
-    batch.result().colliding[i] = {1, body_};
+    parts.result().valid[i] = 0;
+    parts.result().colliding[i] = {1, body_};
   }
 
   std::shared_ptr<DeviceScript> script_;

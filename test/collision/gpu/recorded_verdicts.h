@@ -21,7 +21,7 @@ class RecordedVerdicts : public PartSource
     taken_ = next.end();
     return next;
   }
-  void bring(const StateRange& states, const std::uint32_t* verdicts) override
+  void bring(const StateRange& states, const std::uint32_t* verdicts, const GpuWork& /*work*/) override
   {
     parts.push_back(states.count);
     for (std::size_t i = 0; i < states.count; ++i)

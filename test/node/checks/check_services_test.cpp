@@ -789,10 +789,7 @@ class FailingChecker : public StateChecker
 {
  public:
   void setScene(std::shared_ptr<const PlanningScene>) override {}
-  BatchResult check(const double*, std::size_t, const std::string&, const JointNeighbourhood*) override
-  {
-    throw std::runtime_error("device lost");
-  }
+  BatchResult checkBatch(const StateBatch&) override { throw std::runtime_error("device lost"); }
   SceneReport report(const std::string&) override { return {}; }
   std::string deviceName() const override { return ""; }
 };

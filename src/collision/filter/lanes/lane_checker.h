@@ -66,10 +66,11 @@ class LaneChecker
   /// Whether `check` may be called for a state.
   static bool takes(const double* state, const Scratch& scratch) { return scratch.scene->isWithinBounds(state); }
 
-  /// Checks `count` states (1 to lanes::kLanes rows) and sets rows `row` and following of `result`, which must be
-  /// initialised as free. `margins`: of each state, see CpuTraversal::firstCollision; null: no margins. The problem
-  /// must be valid for the states, and `takes` true. Thread-safe if each thread has its own scratch; states with and
-  /// without margins should have different ones, because the scratch learns which tests pay.
+  /// Checks `count` states (1 to lanes::kLanes rows), which are the rows `row` and following of `result`. For each one
+  /// that collides, sets `valid` to 0, and its pair; leaves the other rows as they are. `margins`: of each state, see
+  /// CpuTraversal::firstCollision; null: no margins. The problem must be valid for the states, and `takes` true.
+  /// Thread-safe if each thread has its own scratch; states with and without margins should have different ones,
+  /// because the scratch learns which tests pay.
   void check(const double* states, std::size_t count, std::size_t row, const double* const* margins, Scratch& scratch,
              BatchResult& result) const;
 
