@@ -529,7 +529,7 @@ TEST_F(Server, AReliefWhoseFirstCheckFailsGetsNoRequest)
       : GatedChecker(std::move(scene), gate), checks_(checks)
     {
     }
-    BatchResult check(const double*, std::size_t, const std::string&, const JointNeighbourhood*) override
+    BatchResult checkBatch(const StateBatch& /*batch*/) override
     {
       ++checks_;
       throw Error("there is no memory for the trees");
