@@ -7,10 +7,10 @@
 #include <map>
 #include <random>
 
+#include "base/parallel_for.h"
 #include "collision/bounds/problem_maker.h"
-#include "collision/checkers/cpu_scene.h"
+#include "collision/cpu/cpu_scene.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/parallel_for.h"
 #include "command_line/command_line.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <iostream>
 
+#include "base/parallel_for.h"
 #include "benchmark/csv_table.h"
 #include "benchmark/settings.h"
 #include "benchmark/statistics.h"
-#include "collision/parallel_for.h"
 #include "gpu_planning_scene/mesh_pair_checker.h"
 #include "literature/exact_pair.h"
 #include "literature/models.h"

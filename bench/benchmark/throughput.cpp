@@ -6,15 +6,15 @@
 #include <limits>
 #include <optional>
 
+#include "base/parallel_for.h"
 #include "benchmark/csv_table.h"
 #include "benchmark/geometric_error.h"
 #include "benchmark/settings.h"
 #include "benchmark/state_kinds.h"
 #include "benchmark/statistics.h"
 #include "benchmark/truth.h"
-#include "collision/checkers/cpu_scene.h"
-#include "collision/filter/proofs/proof_worker.h"
-#include "collision/parallel_for.h"
+#include "collision/cpu/cpu_scene.h"
+#include "collision/proofs/proof_worker.h"
 #include "support/test_scenes.h"
 #include "tools/progress_bar.h"
 

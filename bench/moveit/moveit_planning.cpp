@@ -19,12 +19,12 @@
 #include <ros/console.h>
 #include <pluginlib/class_loader.hpp>
 
+#include "base/seconds_since.h"
 #include "benchmark/statistics.h"
 #include "collision/checkers/open_checker.h"
 #include "gpu_planning_scene/moveit/collision_detector_allocator.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
-#include "model/seconds_since.h"
 #include "moveit/moveit_resources.h"
 #include "moveit/study_scenes.h"
 #include "service/checker_maker.h"

@@ -3,9 +3,9 @@
 #include <iostream>
 
 #include "benchmark/csv_table.h"
-#include "collision/checkers/cpu_scene.h"
 #include "collision/checkers/open_checker.h"
-#include "collision/filter/proofs/proof_worker.h"
+#include "collision/cpu/cpu_scene.h"
+#include "collision/proofs/proof_worker.h"
 
 namespace gpu_planning_scene::core::benchmark
 {

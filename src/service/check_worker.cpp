@@ -5,7 +5,7 @@
 #include <iterator>
 #include <utility>
 
-#include "model/seconds_since.h"
+#include "base/seconds_since.h"
 
 namespace gpu_planning_scene::core
 {

@@ -6,8 +6,8 @@
 #include <malloc.h>
 #include <unistd.h>
 
+#include "base/text/memory_text.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/memory_text.h"
 
 namespace gpu_planning_scene::core
 {

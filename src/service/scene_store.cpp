@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text/name_list.h"
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
-#include "model/text/name_list.h"
-#include "model/text/number_text.h"
 #include "model/virtual_joint.h"
 #include "scene/changes/matrix_entries.h"
 

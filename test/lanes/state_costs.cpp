@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "collision/bounds/problem_maker.h"
+#include "collision/cpu/lanes/lane_scene.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/filter/lanes/lane_scene.h"
-#include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/gpu_pair_checker.h"
+#include "collision/gpu/problem/gpu_kinematics.h"
 #include "collision/gpu/recorded_verdicts.h"
 #include "gpu_planning_scene/error.h"
 #include "lanes/gl_device.h"

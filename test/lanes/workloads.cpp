@@ -6,10 +6,10 @@
 #include <random>
 #include <stdexcept>
 
-#include "collision/exact/binned_sah.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/gpu/tree_build/gpu_trees.h"
+#include "collision/trees/binned_sah.h"
 #include "gpu/float_arithmetic.h"
 #include "gpu/program.h"
 #include "gpu/readback.h"

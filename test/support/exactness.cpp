@@ -4,11 +4,11 @@
 #include <chrono>
 #include <cstdio>
 
+#include "base/parallel_for.h"
+#include "base/seconds_since.h"
 #include "collision/bounds/problem_maker.h"
-#include "collision/checkers/cpu_scene.h"
-#include "collision/parallel_for.h"
+#include "collision/cpu/cpu_scene.h"
 #include "collision/problem/collision_problem.h"
-#include "model/seconds_since.h"
 #include "tools/progress_bar.h"
 
 namespace gpu_planning_scene::core

@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
-#include "collision/batch/state_range.h"
 #include "collision/bounds/displacement_bounds.h"
+#include "collision/problem/state_range.h"
 #include "gpu_planning_scene/batch_checker_options.h"
 
 namespace gpu_planning_scene::core

@@ -11,7 +11,7 @@
 
 #include "collision/batch/batch.h"
 #include "collision/batch/device_worker.h"
-#include "collision/filter/proofs/robot_proofs.h"
+#include "collision/proofs/robot_proofs.h"
 
 namespace gpu_planning_scene::core
 {

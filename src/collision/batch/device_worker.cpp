@@ -13,10 +13,10 @@
 
 #include <malloc.h>
 
+#include "base/finally.h"
 #include "collision/batch/device_parts.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/error.h"
-#include "model/finally.h"
 
 namespace gpu_planning_scene::core
 {

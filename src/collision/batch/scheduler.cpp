@@ -7,14 +7,14 @@
 #include <thread>
 #include <utility>
 
-#include "collision/available_cores.h"
-#include "collision/batch_size.h"
-#include "collision/gpu/placeable_states.h"
+#include "base/available_cores.h"
+#include "base/finally.h"
+#include "base/seconds_since.h"
+#include "collision/gpu/problem/placeable_states.h"
+#include "collision/problem/batch_size.h"
+#include "collision/problem/rows_without.h"
 #include "collision/problem/state_validation.h"
-#include "collision/rows_without.h"
 #include "gpu_planning_scene/error.h"
-#include "model/finally.h"
-#include "model/seconds_since.h"
 
 namespace gpu_planning_scene::core
 {

@@ -9,7 +9,7 @@
 
 #include "collision/batch/change_gate.h"
 #include "collision/batch/device_pool.h"
-#include "collision/checkers/cpu_scene.h"
+#include "collision/cpu/cpu_scene.h"
 #include "gpu_planning_scene/state_checker.h"
 
 namespace gpu_planning_scene::core

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <limits>
 
-#include "collision/filter/proofs/joint_chain.h"
+#include "base/text/one_line.h"
+#include "collision/proofs/joint_chain.h"
 #include "gpu_planning_scene/body_parts.h"
 #include "model/robot_text.h"
-#include "model/text/one_line.h"
 #include "scene/body_link.h"
 
 namespace gpu_planning_scene::core

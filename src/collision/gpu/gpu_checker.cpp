@@ -5,9 +5,9 @@
 #include <future>
 #include <utility>
 
-#include "collision/filter/lanes/lane_checker.h"
-#include "collision/parallel_for.h"
-#include "collision/rows_without.h"
+#include "base/parallel_for.h"
+#include "collision/cpu/lanes/lane_checker.h"
+#include "collision/problem/rows_without.h"
 #include "gpu/float_arithmetic.h"
 #include "gpu/gl_check.h"
 #include "gpu_planning_scene/error.h"

@@ -10,16 +10,16 @@
 #include <Eigen/Geometry>
 
 #include "collision/bounds/displacement_bounds.h"
+#include "collision/cpu/lanes/lane_scene.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/filter/lanes/lane_scene.h"
-#include "collision/filter/proofs/robot_proofs.h"
-#include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/gpu_pair_checker.h"
 #include "collision/gpu/part_source.h"
-#include "collision/gpu/placeable_states.h"
-#include "collision/gpu/uploaded_poses.h"
+#include "collision/gpu/problem/gpu_kinematics.h"
+#include "collision/gpu/problem/placeable_states.h"
+#include "collision/gpu/problem/uploaded_poses.h"
 #include "collision/problem/collision_problem.h"
+#include "collision/proofs/robot_proofs.h"
 #include "gpu/gl_thread.h"
 #include "gpu_planning_scene/batch_checker_options.h"
 

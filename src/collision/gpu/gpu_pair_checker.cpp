@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/part_limits.h"
+#include "collision/gpu/problem/gpu_kinematics.h"
 #include "collision/gpu/proofs/frame_check.h"
 #include "gpu/float_arithmetic.h"
 #include "gpu/gl_check.h"

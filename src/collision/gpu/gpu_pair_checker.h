@@ -8,14 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "collision/batch_size.h"
-#include "collision/gpu/broad_phase_order.h"
-#include "collision/gpu/gpu_margins.h"
-#include "collision/gpu/gpu_scene.h"
+#include "collision/gpu/broad_phase/broad_phase_order.h"
 #include "collision/gpu/part_source.h"
-#include "collision/gpu/pose_source.h"
+#include "collision/gpu/problem/gpu_margins.h"
+#include "collision/gpu/problem/gpu_scene.h"
+#include "collision/gpu/problem/pose_source.h"
 #include "collision/gpu/proofs/gpu_proofs.h"
 #include "collision/gpu/traversal/gpu_traversal.h"
+#include "collision/problem/batch_size.h"
 #include "gpu/readback.h"
 #include "shader_constants.h"
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "collision/batch/state_range.h"
+#include "collision/problem/state_range.h"
 #include "gpu_planning_scene/batch_checker_options.h"
 
 namespace gpu_planning_scene::core

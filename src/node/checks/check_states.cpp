@@ -2,9 +2,9 @@
 #include <chrono>
 #include <numeric>
 
+#include "base/seconds_since.h"
 #include "gpu_planning_scene/error.h"
 #include "model/joint_limits.h"
-#include "model/seconds_since.h"
 #include "node/checks/check_services.h"
 #include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"

@@ -5,9 +5,9 @@
 #include <ros/console.h>
 #include <ros/this_node.h>
 
+#include "base/text/one_line.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/body_parts.h"
-#include "model/text/one_line.h"
 #include "service/memory_guard.h"
 
 namespace gpu_planning_scene::core

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "model/text/one_line.h"
+#include "base/text/one_line.h"
 
 namespace gpu_planning_scene::core
 {

@@ -1,9 +1,9 @@
 #include <optional>
 #include <string>
 
+#include "base/text/nearest_key.h"
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
-#include "model/text/nearest_key.h"
 #include "node/endpoints/respond.h"
 #include "node/kinematics/kinematics_services.h"
 #include "node/messages/pose_messages.h"

@@ -3,10 +3,10 @@
 #include <string>
 #include <utility>
 
+#include "base/seconds_since.h"
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
 #include "model/joint_limits.h"
-#include "model/seconds_since.h"
 #include "node/checks/state_warnings.h"
 #include "node/endpoints/respond.h"
 #include "node/kinematics/kinematics_services.h"

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <optional>
 
+#include "base/math_constants.h"
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/inverse_kinematics.h"
-#include "model/math_constants.h"
 #include "model/rigid_pose.h"
-#include "model/text/number_text.h"
 #include "scene/constraints_from_message.h"
 
 namespace gpu_planning_scene::core

@@ -4,8 +4,8 @@
 #include <sstream>
 #include <thread>
 
+#include "base/text/nearest_key.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/nearest_key.h"
 
 namespace gpu_planning_scene::core
 {

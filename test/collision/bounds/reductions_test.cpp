@@ -8,8 +8,8 @@
 
 #include "collision/bounds/problem_maker.h"
 #include "collision/checkers/scene_text.h"
-#include "collision/exact/binned_sah.h"
 #include "collision/exact/cpu_traversal.h"
+#include "collision/trees/binned_sah.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "model/model_testing.h"

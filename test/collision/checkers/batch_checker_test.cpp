@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/checkers/cpu_scene.h"
 #include "collision/checkers/open_checker.h"
-#include "collision/filter/proofs/proof_worker.h"
+#include "collision/cpu/cpu_scene.h"
 #include "collision/gpu/sliding_balls.h"
+#include "collision/proofs/proof_worker.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"

@@ -13,8 +13,8 @@
 
 #include "collision/bounds/displacement_bounds.h"
 #include "collision/bounds/problem_maker.h"
+#include "collision/cpu/lanes/lane_checker.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/filter/lanes/lane_checker.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/interpolation.h"

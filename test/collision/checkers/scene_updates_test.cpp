@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/exact/object_tree.h"
+#include "collision/trees/object_tree.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"

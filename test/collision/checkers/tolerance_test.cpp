@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/parallel_for.h"
 #include "collision/bounds/problem_maker.h"
-#include "collision/parallel_for.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"

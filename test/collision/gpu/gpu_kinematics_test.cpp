@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "collision/gpu/gpu_checker.h"
-#include "collision/gpu/gpu_kinematics.h"
-#include "collision/gpu/gpu_scene.h"
-#include "collision/gpu/placeable_states.h"
+#include "collision/gpu/problem/gpu_kinematics.h"
+#include "collision/gpu/problem/gpu_scene.h"
+#include "collision/gpu/problem/placeable_states.h"
 #include "gpu/egl_context.h"
 #include "gpu/float_arithmetic.h"
 #include "model/model_testing.h"

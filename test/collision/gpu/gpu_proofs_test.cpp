@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/filter/proven_scene.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/gpu/sliding_balls.h"
+#include "collision/proofs/proven_scene.h"
 #include "support/near_contact.h"
 #include "support/repetitions.h"
 #include "support/seed.h"
