@@ -3,8 +3,8 @@
 #include <atomic>
 #include <random>
 
-#include "collision/batch/batch.h"
 #include "collision/batch/batch_device.h"
+#include "collision/batch/device_parts.h"
 #include "gpu_planning_scene/error.h"
 #include "node/run_node.h"
 
@@ -23,20 +23,30 @@ class FaultyDevice : public BatchDevice
     fail();
     device_->prepare(task);
   }
-  void check(Batch& batch, std::size_t number, const Take& take) override
+  void check(DeviceParts& parts) override
   {
-    const Take faulty = [&](std::size_t most)
-    {
-      fail();
-      return take(most);
-    };
-    device_->check(batch, number, faulty);
+    FaultyParts faulty(parts, *this);
+    device_->check(faulty);
   }
   std::string name() const override { return device_->name(); }
   bool isSoftware() const override { return device_->isSoftware(); }
   std::string fault() const override { return device_->fault(); }
 
  private:
+  class FaultyParts : public DeviceParts
+  {
+   public:
+    FaultyParts(const DeviceParts& parts, FaultyDevice& device) : DeviceParts(parts), device_(device) {}
+    StateRange take(std::size_t most) override
+    {
+      device_.fail();
+      return DeviceParts::take(most);
+    }
+
+   private:
+    FaultyDevice& device_;
+  };
+
   void fail()
   {
     constexpr unsigned kCalls = 100;

@@ -19,13 +19,14 @@ class DeviceParts
     : batch_(std::move(batch)), device_(device), share_(share), progress_(std::move(progress))
   {
   }
+  virtual ~DeviceParts() = default;
 
   const double* states() const { return batch_->deviceRows().states; }
   const Margins* margins() const { return batch_->margins(); }
   BatchResult& result() { return batch_->result(); }
 
   /// See Batch.
-  StateRange take(std::size_t most)
+  virtual StateRange take(std::size_t most)
   {
     progress_();
     return batch_->takeForDevice(device_, most, share_);

@@ -200,12 +200,18 @@ BatchResult Scheduler::checkTogether(const StateBatch& asked, std::optional<Marg
   const Finally close([&] { batch->close(); });
   DeviceJoin devices(*this, asked, batch);
   Progress progress(asked, *batch);
-  std::unique_lock<std::timed_mutex> turn(turn_, std::defer_lock);
+  bool has_turn = false;
+  const Finally give_turn(
+      [&]
+      {
+        if (has_turn)
+          turn_.give();
+      });
   if (!devices_.isEmpty())
     devices_.noteProofs(asked.group, scene_.proofStage(asked.group));
   if (!devices_.isEmpty() && devices_.isDeviceOnly())
   {
-    while (!turn.try_lock_for(kTick))
+    while (!(has_turn = turn_.takeFor(kTick)))
       progress.tick();
     while (!devices_.waitFor(kTick))
       progress.tick();

@@ -9,6 +9,7 @@
 
 #include "collision/batch/change_gate.h"
 #include "collision/batch/device_pool.h"
+#include "collision/batch/turn.h"
 #include "collision/cpu/cpu_scene.h"
 #include "gpu_planning_scene/state_checker.h"
 
@@ -55,7 +56,7 @@ class Scheduler
   ChangeGate gate_;  // checks share it; setScene holds it alone
   CpuScene scene_;
   DevicePool devices_;
-  std::timed_mutex turn_;  // with device_only, batches wait for the devices
+  Turn turn_;  // with device_only, batches wait for the devices
   std::atomic<std::uint64_t> batches_on_cpu_{0};
   mutable std::mutex work_mutex_;
   GpuWork last_work_;  // guarded by work_mutex_

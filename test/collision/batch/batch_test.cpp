@@ -246,13 +246,13 @@ TEST_F(BatchParts, AreEachAnsweredOnceAndAsTheyShould)
 {
   for (std::uint64_t seed = kSeed; seed < kSeed + 20; ++seed)
   {
-    constexpr std::size_t kStates = 20'000;
+    constexpr std::size_t kRows = 20'000;
     std::vector<std::size_t> only_cores;
     std::mt19937_64 random(seed);
-    for (std::size_t i = 0; i < kStates; ++i)
+    for (std::size_t i = 0; i < kRows; ++i)
       if (random() % 50 == 0)
         only_cores.push_back(i);
-    const auto batch = batchOf(kStates, only_cores, 4);
+    const auto batch = batchOf(kRows, only_cores, 4);
     const auto write = [&](std::size_t row, bool hits)
     {
       if (!hits)
@@ -311,7 +311,7 @@ TEST_F(BatchParts, AreEachAnsweredOnceAndAsTheyShould)
       thread.join();
     batch->close();
     const BatchResult result = batch->takeResult();  // throws if a state has no answer, or if one has two
-    for (std::size_t i = 0; i < kStates; ++i)
+    for (std::size_t i = 0; i < kRows; ++i)
     {
       ASSERT_EQ(result.valid[i], i % 3 == 0 ? 0 : 1) << "state " << i << ", seed " << seed;
       ASSERT_EQ(result.colliding[i], i % 3 == 0 ? (BodyPair{0, 1}) : kNoPair) << "state " << i << ", seed " << seed;

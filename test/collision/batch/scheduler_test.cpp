@@ -295,7 +295,7 @@ TEST_F(SchedulerTest, ABatchOpensADeviceAgainThatCouldNotBeOpened)
 {
   device_only_ = false;
   opens_at_start_ = false;
-  limits_.retry_seconds = 0.05;
+  limits_.retry_seconds = 1.0;
   device_->opens = {refuse};
   expectRight(kCount);
   EXPECT_EQ(device_->opened, 0);

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/batch/batch.h"
+#include "collision/batch/device_parts.h"
 #include "gpu_planning_scene/error.h"
 #include "model/model_testing.h"
 #include "node/endpoints/diagnostics.h"
@@ -25,17 +25,17 @@ class Device : public BatchDevice
  public:
   explicit Device(std::shared_ptr<std::atomic<int>> losses) : losses_(std::move(losses)) {}
   void prepare(const DeviceTask&) override {}
-  void check(Batch& batch, std::size_t device, const Take& take) override
+  void check(DeviceParts& parts) override
   {
-    for (StateRange part = take(1000); part.count != 0; part = take(1000))
+    for (StateRange part = parts.take(1000); part.count != 0; part = parts.take(1000))
     {
       if (*losses_ > 0)
       {
         --*losses_;
         throw DeviceLost("the GPU was reset");
       }
-      if (const StateRange mine = batch.beginAnswer(device, part); mine.count != 0)
-        batch.endAnswer(mine, {});
+      if (const StateRange mine = parts.beginAnswer(part); mine.count != 0)
+        parts.endAnswer(mine, {});
     }
   }
   std::string name() const override { return "a device"; }
