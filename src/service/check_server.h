@@ -11,8 +11,8 @@
 
 #include "gpu_planning_scene/motion_checker.h"
 #include "gpu_planning_scene/state_checker.h"
-#include "service/busy.h"
 #include "service/scene_store.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -103,7 +103,7 @@ class CheckServer
   /// The future gets the checker's errors, and an Error if a variable is neither given nor known.
   std::future<CheckAnswer> submit(CheckJob job);
 
-  /// Unfinished requests, running motion checks, queued and later requests get an Error "shutting down".
+  /// Unfinished requests, running motion checks, queued and later requests get ShuttingDown.
   void stop();
 
   CheckStatistics statistics() const;

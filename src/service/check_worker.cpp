@@ -204,7 +204,7 @@ BatchResult CheckWorker::checkStates(const std::shared_ptr<const std::vector<dou
   }
   catch (const Cancelled&)
   {
-    std::rethrow_exception(shuttingDown());
+    throw ShuttingDown();
   }
 }
 
@@ -230,7 +230,7 @@ void CheckWorker::checkMotions(const CheckJob& job, const std::shared_ptr<const 
   answer.motions =
       checker.check(states.data(), ends, count, MotionQuery::LastValid, [this] { return queue_.isStopping(); });
   if (queue_.isStopping())
-    std::rethrow_exception(shuttingDown());
+    throw ShuttingDown();
   answer.states_checked += checker.statesChecked();
   answer.result.revision = answer.scene->revision;
   answer.result.seconds = secondsSince(start);

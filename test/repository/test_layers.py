@@ -43,7 +43,7 @@ LAYERS = {
     "tools": ["command_line", "render", "model/description"],
     "plugins": ["planning"],
     "planners": ["planning"],
-    "node/messages": ["scene"],
+    "node/messages": ["service"],
     "node/endpoints": ["service"],
     "node/parameters": ["service"],
     "node/scene": ["node/messages", "node/endpoints"],

@@ -11,6 +11,7 @@
 #include "node/endpoints/topic_warnings.h"
 #include "node/messages/pose_messages.h"
 #include "node/messages/requested_states.h"
+#include "service/service_errors.h"
 
 // The service ~check_states, with contacts and clearance.
 namespace gpu_planning_scene::core
@@ -166,7 +167,7 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
   for (std::size_t i = 0; i < valid.size(); ++i)
   {
     if (stopping_)
-      throw shuttingDown();
+      throw ShuttingDown();
     const double* state = answer.states.data() + i * width;
     if (!valid[i] && request.max_contacts != 0)
     {
@@ -185,7 +186,7 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
   for (std::size_t i = 0; has_distances && i < valid.size(); i += kStatesPerPart)
   {
     if (stopping_)
-      throw shuttingDown();
+      throw ShuttingDown();
     const std::size_t count = std::min(kStatesPerPart, valid.size() - i);
     const double* states = answer.states.data() + i * width;
     if (request.clearance)

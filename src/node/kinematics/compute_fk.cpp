@@ -9,6 +9,7 @@
 #include "node/messages/pose_messages.h"
 #include "node/messages/requested_states.h"
 #include "scene/frame.h"
+#include "service/service_errors.h"
 
 // The service ~compute_fk.
 namespace gpu_planning_scene::core
@@ -67,7 +68,7 @@ ComputeFk::Response KinematicsServices::computeFk(const ComputeFk::Request& requ
         for (std::size_t i = 0; i < count; ++i)
         {
           if (stopping_)
-            throw Error("shutting down: the request was not answered");
+            throw ShuttingDown();
           robot.linkPoses(states.data() + i * robot.variables().size(), links.data());
           for (const LocatedFrame& frame : frames)
           {

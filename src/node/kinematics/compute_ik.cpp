@@ -47,7 +47,7 @@ void addResults(const std::vector<CollisionFreeIkResult>& results, const Group& 
 {
   for (const CollisionFreeIkResult& result : results)
   {
-    response.status.push_back(statusOf(result.status));
+    response.pose_status.push_back(statusOf(result.status));
     response.faults.push_back(shortLine(result.message));
     response.counts.push_back(static_cast<std::uint32_t>(result.states.size()));
     for (const std::vector<double>& state : result.states)
