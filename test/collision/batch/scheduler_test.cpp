@@ -213,7 +213,7 @@ TEST_F(SchedulerTest, ALossInASceneChangeKeepsTheNewScene)
 
 TEST_F(SchedulerTest, AfterTwoLossesInACallTheCpuAnswersUntilTheRetry)
 {
-  limits_.retry_seconds = 0.2;
+  limits_.retry_seconds = 1.5;  // longer than some batches take under the thread sanitizer
   scheduler();
   device_->parts = {lose, lose};
   EXPECT_EQ(expectRight(kCount).device_states, 0U);
@@ -249,7 +249,7 @@ TEST_F(SchedulerTest, ADeviceThatIsLostTooOftenIsNotReopened)
 
 TEST_F(SchedulerTest, TheCpuReplacesADeviceThatCannotBeReopened)
 {
-  limits_.retry_seconds = 0.2;
+  limits_.retry_seconds = 1.5;  // longer than some batches take under the thread sanitizer
   for (const auto fail : {+[] { refuse(); }, +[] { throw DeviceLost("no usable device"); }})
   {
     scheduler();
@@ -275,7 +275,7 @@ TEST_F(SchedulerTest, FailureToOpenAtTheStartIsAnError)
 TEST_F(SchedulerTest, TheCpuAnswersUntilALaterDeviceOpens)
 {
   opens_at_start_ = false;
-  limits_.retry_seconds = 0.2;
+  limits_.retry_seconds = 1.5;  // longer than some batches take under the thread sanitizer
   for (const auto& [fail, losses] : {std::pair{+[] { refuse(); }, 0U}, std::pair{+[] { lose(); }, 2U}})
   {
     device_->opens = {fail, losses != 0 ? fail : nullptr};
