@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "base/seconds_since.h"
+#include "base/text/one_line.h"
 #include "gpu_planning_scene/error.h"
 #include "model/joint_limits.h"
 #include "node/checks/check_services.h"

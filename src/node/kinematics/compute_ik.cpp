@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/seconds_since.h"
+#include "base/text/one_line.h"
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
 #include "model/joint_limits.h"
