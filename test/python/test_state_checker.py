@@ -262,7 +262,7 @@ class StateChecker(Case):
             (gps.Error, "sideways", {"traversal": "sideways"}),
             (gps.Error, "tolerance", {"tolerance": -1.0, "device": "cpu"}),
             (TypeError, "whole number", {"max_batch": -1}),
-            (TypeError, "device_only", {"device_only": "all"}),
+            (TypeError, "True or False", {"device_only": "all"}),
             (TypeError, "expected a number", {"tolerance": "fine"}),
         ):
             self.assert_one_line(error, pattern, gps.StateChecker, scene, **options)
@@ -283,13 +283,13 @@ class StateChecker(Case):
                 self.assertNotEqual("CPU", checker.device_name)
                 scene.add_object("a", gps.Sphere(0.3), [1, 0, 0])
                 scene.add_object("b", gps.Sphere(0.4), [-1, 0, 0])
+                checker.set_scene(scene)  # the device takes the scene over in the background
+                states = np.linspace(-3.0, 3.0, 100)[:, None]
                 with self.assertWarnsRegex(UserWarning, "^the device has failed, so the CPU checks the states: the GPU "
                                                         "built wrong trees"):
-                    checker.set_scene(scene)
+                    answers = checker.check(states).valid
                 self.assertEqual("CPU", checker.device_name)
-                states = np.linspace(-3.0, 3.0, 100)[:, None]
-                np.testing.assert_array_equal(gps.StateChecker(scene, device="cpu").check(states).valid,
-                                              checker.check(states).valid)
+                np.testing.assert_array_equal(gps.StateChecker(scene, device="cpu").check(states).valid, answers)
                 self.assert_one_line(gps.Error, "^the GPU built wrong trees", gps.StateChecker, scene, device="0")
 
     def test_devices_are_listed_and_can_be_chosen(self):
