@@ -21,7 +21,7 @@ std::unique_ptr<StateChecker> makeChecker(const std::string& method, const std::
     return std::make_unique<CpuChecker>(scene);
   BatchCheckerOptions options;
   options.traversal = traversalFromName(method);
-  options.cpu_below = 0;
+  options.device_only = true;
   return std::make_unique<BatchChecker>(scene, options);
 }
 

@@ -6,11 +6,11 @@
 #include <limits>
 #include <mutex>
 
+#include "base/parallel_for.h"
+#include "base/seconds_since.h"
 #include "collision/contacts/colliding_shapes.h"
 #include "collision/contacts/held_shape.h"
-#include "collision/parallel_for.h"
 #include "command_line/command_line.h"
-#include "model/seconds_since.h"
 
 using namespace gpu_planning_scene::core;
 

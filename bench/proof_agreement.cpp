@@ -7,10 +7,10 @@
 #include <map>
 #include <random>
 
+#include "base/parallel_for.h"
 #include "collision/bounds/problem_maker.h"
-#include "collision/checkers/cpu_scene.h"
+#include "collision/cpu/cpu_scene.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/parallel_for.h"
 #include "command_line/command_line.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
@@ -48,7 +48,7 @@ std::unique_ptr<StateChecker> makeChecker(const std::shared_ptr<const PlanningSc
     return std::make_unique<CpuChecker>(scene);
   BatchCheckerOptions options;
   options.device = device;
-  options.cpu_below = 0;
+  options.device_only = true;
   return std::make_unique<BatchChecker>(scene, options);
 }
 

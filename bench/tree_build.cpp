@@ -9,11 +9,11 @@
 #include <iostream>
 #include <set>
 
-#include "collision/exact/binned_sah.h"
+#include "base/seconds_since.h"
 #include "collision/gpu/tree_build/gpu_forest.h"
+#include "collision/trees/binned_sah.h"
 #include "gpu/egl_context.h"
 #include "gpu_planning_scene/error.h"
-#include "model/seconds_since.h"
 #include "support/test_scenes.h"
 
 using namespace gpu_planning_scene::core;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "model/text/name_list.h"
+#include "base/text/name_list.h"
 
 namespace gpu_planning_scene::core
 {

@@ -56,7 +56,7 @@ while(files)
   endforeach()
 endwhile()
 string(SHA256 hash "${hashes}")
-file(WRITE "${FILE}" "#include \"collision/filter/proofs/proof_sources.h\"
+file(WRITE "${FILE}" "#include \"collision/proofs/proof_sources.h\"
 
 namespace gpu_planning_scene::core
 {

@@ -35,6 +35,7 @@ add_message_files(FILES
   PlanningSceneWorld.msg
   PositionConstraint.msg
   RobotState.msg
+  Status.msg
   WorkspaceParameters.msg)
 add_service_files(FILES
   ApplyPlanningScene.srv

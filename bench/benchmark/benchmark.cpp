@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include "base/text/name_list.h"
 #include "benchmark/csv_table.h"
 #include "benchmark/machine.h"
 #include "benchmark/settings.h"
@@ -18,7 +19,6 @@
 #include "benchmark/statistics.h"
 #include "command_line/command_line.h"
 #include "model/real_robots.h"
-#include "model/text/name_list.h"
 #include "peers/vamp/vamp_check.h"
 #include "support/test_scenes.h"
 #include "word_options.h"

@@ -6,8 +6,8 @@
 #include "benchmark/csv_table.h"
 #include "benchmark/gl_timer.h"
 #include "benchmark/settings.h"
-#include "collision/checkers/cpu_scene.h"
-#include "collision/filter/proofs/proof_worker.h"
+#include "collision/cpu/cpu_scene.h"
+#include "collision/proofs/proof_worker.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core::benchmark

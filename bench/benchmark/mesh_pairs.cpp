@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <iostream>
 
+#include "base/parallel_for.h"
 #include "benchmark/csv_table.h"
 #include "benchmark/settings.h"
 #include "benchmark/statistics.h"
-#include "collision/parallel_for.h"
 #include "gpu_planning_scene/mesh_pair_checker.h"
 #include "literature/exact_pair.h"
 #include "literature/models.h"
@@ -39,7 +39,7 @@ Collide onGpu(const Shape& a, const Shape& b, const MethodInfo& info, const Sett
   BatchCheckerOptions options;
   options.device = settings.method.device;
   options.traversal = traversalFromName(info.name.substr(std::string("ours_").size()));
-  options.cpu_below = 0;
+  options.device_only = true;
   auto checker = std::make_shared<MeshPairChecker>(a, b, options);
   return [checker](const std::vector<Isometry3d>& poses) { return checker->collide(poses); };
 }

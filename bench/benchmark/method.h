@@ -38,8 +38,8 @@ class Method
   virtual std::size_t undecided() const { return 0; }
   /// Work of one check of these states. Do not time this call.
   virtual WorkPerState work(const double* /*states*/, std::size_t /*count*/) { return {}; }
-  /// For a method that chooses between CPU and GPU: batches of fewer states went to the CPU.
-  virtual std::optional<std::size_t> cpuBelow() { return std::nullopt; }
+  /// For a method in which devices and cores work together: the share of the devices in the last check.
+  virtual std::optional<double> deviceShare() { return std::nullopt; }
 };
 
 struct MethodOptions

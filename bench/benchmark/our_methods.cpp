@@ -19,6 +19,7 @@ class CheckerMethod : public Method
   {
     BatchResult result = checker_->check(states, count);
     undecided_ = result.undecided_states;
+    device_share_ = static_cast<double>(result.device_states) / static_cast<double>(std::max<std::size_t>(1, count));
     return std::move(result.valid);
   }
   bool update(const std::shared_ptr<const PlanningScene>& scene) override
@@ -30,10 +31,12 @@ class CheckerMethod : public Method
 
  protected:
   StateChecker& checker() { return *checker_; }
+  double deviceShareOfLastCheck() const { return device_share_; }
 
  private:
   std::unique_ptr<StateChecker> checker_;
   std::size_t undecided_ = 0;
+  double device_share_ = 0.0;
 };
 
 /// Only the CPU: the exact checker, with or without proofs for most states.
@@ -72,7 +75,7 @@ class CpuMethod : public CheckerMethod
   std::shared_ptr<const PlanningScene> scene_;
 };
 
-/// A BatchChecker: only the GPU, or a choice between GPU and CPU.
+/// A BatchChecker: only the device, or device and cores together.
 class BatchMethod : public CheckerMethod
 {
  public:
@@ -98,7 +101,7 @@ class ChoosingMethod : public BatchMethod
 {
  public:
   using BatchMethod::BatchMethod;
-  std::optional<std::size_t> cpuBelow() override { return checker().report().cpu_below; }
+  std::optional<double> deviceShare() override { return deviceShareOfLastCheck(); }
 };
 
 /// Only the CPU.
@@ -142,7 +145,7 @@ MethodInfo onGpu(const std::string& name, const std::string& title, Traversal tr
     BatchCheckerOptions made = batchOptions(options);
     made.traversal = traversal;
     made.reductions.proofs = proofs;
-    made.cpu_below = 0;
+    made.device_only = true;
     return std::make_unique<BatchMethod>(std::make_unique<BatchChecker>(scene, made));
   };
   return info;
@@ -180,7 +183,7 @@ class UnfilteredFloat : public Method
     shaders_.replace("traversal/verdicts.glsl", "if ((found & STATE_HIT) != 0u)",
                      "found = found != 0u ? STATE_HIT : 0u;\n  if (found != 0u)");
     options.shader_folder = shaders_.path();
-    options.cpu_below = 0;
+    options.device_only = true;
     checker_ = std::make_unique<BatchMethod>(std::make_unique<BatchChecker>(scene, options));
   }
 

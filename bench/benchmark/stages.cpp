@@ -2,8 +2,8 @@
 
 #include "benchmark/csv_table.h"
 #include "benchmark/settings.h"
-#include "collision/checkers/cpu_scene.h"
-#include "collision/filter/proofs/proof_worker.h"
+#include "collision/cpu/cpu_scene.h"
+#include "collision/proofs/proof_worker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "support/test_scenes.h"
 

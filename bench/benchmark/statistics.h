@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "model/seconds_since.h"
+#include "base/seconds_since.h"
 
 namespace gpu_planning_scene::core::benchmark
 {

@@ -6,15 +6,15 @@
 #include <limits>
 #include <optional>
 
+#include "base/parallel_for.h"
 #include "benchmark/csv_table.h"
 #include "benchmark/geometric_error.h"
 #include "benchmark/settings.h"
 #include "benchmark/state_kinds.h"
 #include "benchmark/statistics.h"
 #include "benchmark/truth.h"
-#include "collision/checkers/cpu_scene.h"
-#include "collision/filter/proofs/proof_worker.h"
-#include "collision/parallel_for.h"
+#include "collision/cpu/cpu_scene.h"
+#include "collision/proofs/proof_worker.h"
 #include "support/test_scenes.h"
 #include "tools/progress_bar.h"
 
@@ -136,13 +136,11 @@ double ratioTo(const char* name, const Run& run, const std::vector<Run>& runs)
   return median(ratios);
 }
 
-/// Empty for a method without this choice.
-Cell cpuBelow(Method& method)
+/// Empty for a method in which devices and cores do not work together.
+Cell deviceShare(Method& method)
 {
-  const std::optional<std::size_t> below = method.cpuBelow();
-  if (!below)
-    return "";
-  return *below == std::numeric_limits<std::size_t>::max() ? Cell("all") : Cell(*below);
+  const std::optional<double> share = method.deviceShare();
+  return share ? Cell(*share) : Cell("");
 }
 
 class Tables
@@ -170,7 +168,7 @@ class Tables
                    "cpu_us_a_state",
                    "undecided_share",
                    "of_fcl_ordered",
-                   "cpu_below",
+                   "device_share",
                    "node_visits_a_state",
                    "candidates_a_state",
                    "root_pairs_a_state",
@@ -209,7 +207,7 @@ class Tables
                      median(run.cpu),
                      static_cast<double>(run.undecided) / static_cast<double>(run.count),
                      ratioTo(kOrderedMethod, run, runs),
-                     cpuBelow(*run.method),
+                     deviceShare(*run.method),
                      work.node_visits,
                      work.candidates,
                      work.root_pairs,

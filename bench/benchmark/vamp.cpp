@@ -1,5 +1,5 @@
+#include "base/parallel_for.h"
 #include "benchmark/method.h"
-#include "collision/parallel_for.h"
 #include "peers/vamp/vamp_check.h"
 
 namespace gpu_planning_scene::core::benchmark

@@ -1,7 +1,7 @@
 #include "literature/exact_pair.h"
 
-#include "collision/exact/binned_sah.h"
-#include "collision/parallel_for.h"
+#include "base/parallel_for.h"
+#include "collision/trees/binned_sah.h"
 
 namespace gpu_planning_scene::core::literature
 {

@@ -3,8 +3,8 @@
 #include <iostream>
 #include <map>
 
+#include "base/parallel_for.h"
 #include "benchmark/csv_table.h"
-#include "collision/parallel_for.h"
 #include "gpu_planning_scene/error.h"
 #include "literature/hard_pairs.h"
 #include "literature/pair_truth.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "base/text/name_list.h"
 #include "benchmark/csv_table.h"
 #include "benchmark/machine.h"
 #include "command_line/command_line.h"
@@ -10,7 +11,6 @@
 #include "literature/families.h"
 #include "literature/libraries/library_methods.h"
 #include "literature/models.h"
-#include "model/text/name_list.h"
 #include "word_options.h"
 
 using namespace gpu_planning_scene::core;

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <random>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
 #include "model/real_robots.h"
-#include "model/text/name_list.h"
 #include "support/obstacles.h"
 
 namespace gpu_planning_scene::core::literature

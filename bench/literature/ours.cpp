@@ -39,7 +39,7 @@ class OnDevice : public Method
   {
     BatchCheckerOptions made;
     made.traversal = traversal;
-    made.cpu_below = 0;
+    made.device_only = true;
     return made;
   }
 

@@ -9,7 +9,7 @@
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/narrowphase/distance.h>
 
-#include "collision/parallel_for.h"
+#include "base/parallel_for.h"
 #include "literature/libraries/fcl_tree.h"
 
 namespace gpu_planning_scene::core::literature

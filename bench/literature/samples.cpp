@@ -1,6 +1,6 @@
 #include "literature/samples.h"
 
-#include "collision/parallel_for.h"
+#include "base/parallel_for.h"
 #include "literature/poses.h"
 
 namespace gpu_planning_scene::core::literature

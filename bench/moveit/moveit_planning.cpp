@@ -19,12 +19,12 @@
 #include <ros/console.h>
 #include <pluginlib/class_loader.hpp>
 
+#include "base/seconds_since.h"
 #include "benchmark/statistics.h"
 #include "collision/checkers/open_checker.h"
 #include "gpu_planning_scene/moveit/collision_detector_allocator.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
-#include "model/seconds_since.h"
 #include "moveit/moveit_resources.h"
 #include "moveit/study_scenes.h"
 #include "service/checker_maker.h"
@@ -183,8 +183,8 @@ void run(std::size_t count, double seconds)
       loader.createUniqueInstance("gpu_planning_scene/PlannerManager");
   if (!manager->initialize(robot, "moveit_planning"))
     throw std::runtime_error("the planner cannot be initialised");
-  core::CheckerPool pool(core::makeResilientCheckers(core::BatchCheckerOptions(), {}, core::openChecker,
-                                                     [](const std::string& warning) { std::cerr << warning << '\n'; }));
+  core::CheckerPool pool(core::makeCheckers(core::BatchCheckerOptions(), core::openGpuDevice,
+                                            [](const std::string& warning) { std::cerr << warning << '\n'; }));
   Times through_moveit;
   Times alone;
   PathCheck check;

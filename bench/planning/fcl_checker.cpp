@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "collision/bounds/problem_maker.h"
+#include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core::benchmark
 {
@@ -24,9 +25,9 @@ void FclChecker::setScene(std::shared_ptr<const PlanningScene> /*scene*/)
   throw std::logic_error("an FclChecker keeps its scene");
 }
 
-BatchResult FclChecker::check(const double* states, std::size_t count, const std::string& group,
-                              const JointNeighbourhood* around)
+BatchResult FclChecker::checkBatch(const StateBatch& batch)
 {
+  const auto& [states, count, group, around, owner, go_on] = batch;
   if (group != group_)
     throw std::logic_error("an FclChecker of group " + group_ + " got a request for group " + group);
   std::optional<Margins> margins;
@@ -38,8 +39,11 @@ BatchResult FclChecker::check(const double* states, std::size_t count, const std
   result.revision = scene_->revision;
   result.valid.assign(count, 1);
   result.colliding.assign(count, {-1, -1});
+  constexpr std::size_t kStatesBetweenQuestions = 64;
   for (std::size_t i = 0; i < count; ++i)
   {
+    if (go_on && i % kStatesBetweenQuestions == 0 && !go_on(i))
+      throw Cancelled();
     scene_->robot->linkPoses(states + i * width, poses.data());
     FclPeer& peer = margins ? near_ : fcl_;
     peer.setState(poses.data());

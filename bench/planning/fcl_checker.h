@@ -19,9 +19,8 @@ class FclChecker : public StateChecker
 
   /// Throws std::logic_error: the scene cannot be replaced.
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
-  /// Throws std::logic_error if `group` is not the group of the constructor.
-  BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const JointNeighbourhood* around) override;
+  /// Throws std::logic_error if the batch does not have the group of the constructor.
+  BatchResult checkBatch(const StateBatch& batch) override;
   /// Returns an empty report.
   SceneReport report(const std::string& group) override;
   std::string deviceName() const override { return "FCL"; }

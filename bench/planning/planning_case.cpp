@@ -3,9 +3,9 @@
 #include <iostream>
 
 #include "benchmark/csv_table.h"
-#include "collision/checkers/cpu_scene.h"
 #include "collision/checkers/open_checker.h"
-#include "collision/filter/proofs/proof_worker.h"
+#include "collision/cpu/cpu_scene.h"
+#include "collision/proofs/proof_worker.h"
 
 namespace gpu_planning_scene::core::benchmark
 {
@@ -62,8 +62,8 @@ std::shared_ptr<StateChecker> ProblemChecker::in(const PlanningProblem& problem)
   {
     BatchCheckerOptions options;
     options.device = device_;
-    checker_ = openWithFallback(problem.scene, options,
-                                [](const std::string& warning) { std::cerr << "warning: " << warning << std::endl; });
+    checker_ = openChecker(problem.scene, options,
+                           [](const std::string& warning) { std::cerr << "warning: " << warning << std::endl; });
     std::cout << "device: " << checker_->deviceName() << std::endl;
   }
   std::vector<double> rows;

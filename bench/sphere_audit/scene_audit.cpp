@@ -5,8 +5,8 @@
 
 #include "benchmark/geometric_error.h"
 #include "collision/bounds/problem_maker.h"
-#include "collision/exact/binned_sah.h"
 #include "collision/exact/cpu_traversal.h"
+#include "collision/trees/binned_sah.h"
 
 namespace gpu_planning_scene::core::benchmark
 {

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <sstream>
 
-#include "collision/parallel_for.h"
+#include "base/parallel_for.h"
 #include "gpu_planning_scene/error.h"
 #include "oracle/oracle.h"
 #include "stability/peers.h"

@@ -4,12 +4,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "collision/exact/binned_sah.h"
+#include "base/parallel_for.h"
+#include "collision/cpu/lanes/lane_buffers.h"
+#include "collision/cpu/lanes/lane_kernel.h"
 #include "collision/exact/cpu_traversal.h"
-#include "collision/filter/lanes/lane_buffers.h"
-#include "collision/filter/lanes/lane_kernel.h"
 #include "collision/gpu/gpu_checker.h"
-#include "collision/parallel_for.h"
+#include "collision/trees/binned_sah.h"
 
 namespace gpu_planning_scene::core::stability
 {

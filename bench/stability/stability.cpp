@@ -5,8 +5,8 @@
 #include <fstream>
 #include <iostream>
 
+#include "base/seconds_since.h"
 #include "command_line/command_line.h"
-#include "model/seconds_since.h"
 #include "stability/judge.h"
 
 using namespace gpu_planning_scene::core;

@@ -6,6 +6,8 @@
 
 namespace gpu_planning_scene::core
 {
+class Scheduler;
+
 /// Checks states on the CPU, without a GL device: traverses bounding volume trees in double precision, on all cores.
 /// Thread-safe: calls of check() run side by side. They wait only for a report(), for the first check of a group, and
 /// for setScene(), which itself waits until the running checks have ended.
@@ -17,14 +19,12 @@ class CpuChecker : public StateChecker
   ~CpuChecker() override;
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
-  BatchResult check(const double* states, std::size_t count, const std::string& group = "",
-                    const JointNeighbourhood* around = nullptr) override;
+  BatchResult checkBatch(const StateBatch& batch) override;
   SceneReport report(const std::string& group = "") override;
   std::string deviceName() const override;
   bool checksSideBySide() const override { return true; }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Scheduler> scheduler_;
 };
 }  // namespace gpu_planning_scene::core

@@ -13,6 +13,13 @@ class Error : public std::runtime_error
   explicit Error(const std::string& message) : std::runtime_error(message) {}
 };
 
+/// A call was ended by its caller.
+class Cancelled : public Error
+{
+ public:
+  Cancelled() : Error("cancelled") {}
+};
+
 /// The device or its context is lost, or it failed for a reason that is not the input. The object that threw this error
 /// is no longer usable: create a new one.
 class DeviceLost : public Error

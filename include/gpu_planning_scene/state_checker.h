@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,15 +64,30 @@ struct JointNeighbourhood
   double spread = 0.0;
 };
 
+/// A batch of states to check.
+struct StateBatch
+{
+  const double* states;  ///< row-major, `count` rows of robot->variables().size() values
+  std::size_t count;
+  std::string group = {};                      ///< see StateChecker::check
+  const JointNeighbourhood* around = nullptr;  ///< see StateChecker::check
+  /// Keeps the states alive. Null: the states need not live longer than the check, so it copies them for devices.
+  std::shared_ptr<const void> owner = nullptr;
+  /// In batches of more than a few hundred states, called on the caller's thread about every 20 ms with the number of
+  /// states that have been answered. If it returns false, the check soon throws Cancelled. What it throws ends the
+  /// check too. It must not use the checker.
+  std::function<bool(std::size_t answered)> go_on = nullptr;
+};
+
 struct BatchResult
 {
   std::vector<std::uint8_t> valid;  ///< one per state: 1 free, 0 in collision
   std::vector<BodyPair> colliding;  ///< one per state: a colliding pair; kNoPair if the state is valid
   std::uint64_t revision = 0;       ///< revision of the checked scene
   double seconds = 0.0;             ///< wall time; shaders are usually compiled, and trees built, before the check
-  /// Number of states that the GPU left undecided and the CPU then decided. 0 if the CPU checked the whole batch.
+  std::size_t device_states = 0;    ///< states that devices decided; the CPU decided the others
+  /// States that a device left undecided, because float32 proves no verdict, and the CPU then decided.
   std::size_t undecided_states = 0;
-  double undecided_seconds = 0.0;  ///< part of `seconds` for deciding them
 
   /// Appends the result of the states that follow. Times and counts are added; the revision is that of `next`.
   void append(const BatchResult& next);
@@ -112,17 +128,13 @@ struct SceneReport
   std::size_t triangles = 0;     ///< in all trees
   std::size_t trees = 0;         ///< one per distinct shape
   std::size_t shared_trees = 0;  ///< shapes that use the tree of an equal shape
-  /// The CPU checks batches of fewer states than this. The largest std::size_t: the CPU checks all batches. No value:
-  /// there was no choice, because the checker has no GPU or every state collides.
-  std::optional<std::size_t> cpu_below;
   /// The states of this group that the CPU has checked since setScene, by the stage that decided them. All states
-  /// count: with or without a neighbourhood, and also those of measurements (CPU or GPU). Exception: states that the
-  /// GPU has left undecided do not count.
+  /// count: with or without a neighbourhood, and also those that a device has left undecided.
   std::vector<DecidedStates> decided;
 };
 
 /// Checks many robot states for collision at once. Implementations: BatchChecker (GPU and CPU) and CpuChecker.
-/// Thread-safe. A BatchChecker throws DeviceLost if its device fails.
+/// Thread-safe.
 ///
 /// A pair of bodies collides if its distance is at most its required distance. Between the robot and the world, this is
 /// the sum of the two paddings. Within the robot it is 0.
@@ -142,8 +154,14 @@ class StateChecker
   /// itself may be free, and the reported pair may only be near. A state outside the joint limits gets 0. Only joints
   /// that the group moves may have a travel above 0; the function does not verify this. Throws Error if the rows or the
   /// travel do not fit the states.
-  virtual BatchResult check(const double* states, std::size_t count, const std::string& group = "",
-                            const JointNeighbourhood* around = nullptr) = 0;
+  BatchResult check(const double* states, std::size_t count, const std::string& group = "",
+                    const JointNeighbourhood* around = nullptr)
+  {
+    return checkBatch({states, count, group, around});
+  }
+
+  /// The same for a batch that may take long. Throws Cancelled too.
+  virtual BatchResult checkBatch(const StateBatch& batch) = 0;
 
   /// Pairs that are checked for a group and pairs that are left out. Throws Error for an unknown group.
   virtual SceneReport report(const std::string& group = "") = 0;

@@ -8,11 +8,11 @@
 
 #include <pybind11/stl.h>
 
+#include "base/text/utf8.h"
 #include "bindings/named_rows.h"
 #include "gpu_planning_scene/error.h"
 #include "model/joint_limits.h"
 #include "model/rigid_pose.h"
-#include "model/text/utf8.h"
 
 namespace gpu_planning_scene::python
 {

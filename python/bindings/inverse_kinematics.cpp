@@ -7,6 +7,7 @@
 
 #include <pybind11/stl.h>
 
+#include "base/text/number_text.h"
 #include "bindings/arguments.h"
 #include "bindings/bindings.h"
 #include "bindings/interrupt.h"
@@ -14,7 +15,6 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/collision_free_ik.h"
 #include "model/rigid_pose.h"
-#include "model/text/number_text.h"
 #include "scene/link_frame.h"
 
 namespace gpu_planning_scene::python

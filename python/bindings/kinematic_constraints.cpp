@@ -3,11 +3,11 @@
 
 #include <pybind11/stl.h>
 
+#include "base/text/number_text.h"
 #include "bindings/arguments.h"
 #include "bindings/bindings.h"
 #include "bindings/kinematic_constraints.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/number_text.h"
 #include "scene/link_frame.h"
 
 namespace gpu_planning_scene::python

@@ -1,8 +1,8 @@
 #include <exception>
 
+#include "base/text/utf8.h"
 #include "bindings/bindings.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/utf8.h"
 
 // The extension module of the Python package gpu_planning_scene.
 namespace gpu_planning_scene::python

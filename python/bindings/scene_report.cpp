@@ -45,9 +45,6 @@ void addSceneReport(py::module_& module)
       .def_readonly("triangles", &SceneReport::triangles, "In all trees.")
       .def_readonly("trees", &SceneReport::trees, "One per distinct shape.")
       .def_readonly("shared_trees", &SceneReport::shared_trees, "Shapes that use the tree of an equal shape.")
-      .def_readonly(
-          "cpu_below", &SceneReport::cpu_below,
-          "The CPU checks batches of fewer states than this; 2**64 - 1: all batches. None: there was no choice.")
       .def_readonly("decided", &SceneReport::decided,
                     "The states that the CPU has checked, by the stage that decided them.");
 }

@@ -10,7 +10,6 @@
 #include "bindings/interrupt.h"
 #include "bindings/named_rows.h"
 #include "collision/checkers/open_checker.h"
-#include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/device.h"
@@ -27,10 +26,6 @@ using core::PlanningScene;
 using core::StateChecker;
 using ScenePtr = std::shared_ptr<PlanningScene>;
 
-constexpr std::size_t kFirstStates = 4096;  // states, before the rate is known
-constexpr std::size_t kLeastPart = 1024;    // smaller parts would take longer for each state
-constexpr double kSecondsOfPart = 0.25;     // so Ctrl-C needs at most about as long
-
 /// `open` makes a checker of a scene. The checker gets a copy, which no later change of the caller's scene changes.
 template <typename Open>
 CheckerPtr opened(const PlanningScene& scene, const Open& open)
@@ -40,14 +35,13 @@ CheckerPtr opened(const PlanningScene& scene, const Open& open)
 }
 
 BatchCheckerOptions optionsFrom(const Arg<std::string>& device, Arg<double> tolerance, Arg<std::size_t> max_batch,
-                                const py::object& cpu_below, const Arg<std::string>& traversal)
+                                Arg<bool> device_only, const Arg<std::string>& traversal)
 {
   BatchCheckerOptions options;
   options.device = device.value;
   options.tolerance = tolerance.value;
   options.max_batch = max_batch.value;
-  if (!cpu_below.is_none())
-    options.cpu_below = cpu_below.cast<Arg<std::size_t>>().value;
+  options.device_only = device_only.value;
   options.traversal = core::traversalFromName(traversal.value);
   return options;
 }
@@ -62,12 +56,12 @@ void warnWithLock(const std::string& line)
 }
 
 CheckerPtr openedOnDevice(const Arg<ScenePtr>& scene, const Arg<std::string>& device, Arg<double> tolerance,
-                          Arg<std::size_t> max_batch, const py::object& cpu_below, const Arg<std::string>& traversal)
+                          Arg<std::size_t> max_batch, Arg<bool> device_only, const Arg<std::string>& traversal)
 {
-  const BatchCheckerOptions options = optionsFrom(device, tolerance, max_batch, cpu_below, traversal);
+  const BatchCheckerOptions options = optionsFrom(device, tolerance, max_batch, device_only, traversal);
   return opened(*scene.value,
                 [&](const std::shared_ptr<const PlanningScene>& copy) -> std::shared_ptr<StateChecker>
-                { return core::openWithFallback(copy, options, warnWithLock); });
+                { return core::openChecker(copy, options, warnWithLock); });
 }
 
 BatchResult checkStates(SharedChecker& checker, const py::object& states, const Arg<std::string>& group)
@@ -125,10 +119,10 @@ void addBatchResult(py::module_& module)
           "colliding pairs, any one may be reported.")
       .def_readonly("revision", &BatchResult::revision, "PlanningScene.revision of the checked scene.")
       .def_readonly("seconds", &BatchResult::seconds, "Wall time of the check, without the time of Python.")
+      .def_readonly("device_states", &BatchResult::device_states,
+                    "Number of states that devices decided. The CPU decided the others.")
       .def_readonly("undecided_states", &BatchResult::undecided_states,
-                    "Number of states that the GPU left undecided and the CPU then decided. 0 if the CPU checked the "
-                    "whole batch.")
-      .def_readonly("undecided_seconds", &BatchResult::undecided_seconds, "Part of `seconds` for deciding them.")
+                    "Number of states that a device left undecided and the CPU then decided.")
       .def(
           "__len__", [](const BatchResult& result) { return result.valid.size(); });
 }
@@ -168,7 +162,6 @@ void SharedChecker::setScene(std::shared_ptr<const PlanningScene> scene)
         "the robot of the new scene is not the RobotModel of this checker's scene; make the new scene with "
         "checker.scene.robot, or create a new checker for another robot");
   checker_->setScene(scene);
-  seconds_per_state_ = 0.0;
   const std::lock_guard<std::mutex> scene_lock(scene_mutex_);
   scene_ = std::move(scene);
 }
@@ -178,47 +171,25 @@ core::SceneReport SharedChecker::report(const std::string& group)
   return checker_->report(group);
 }
 
-std::size_t SharedChecker::statesOfPart() const
-{
-  if (seconds_per_state_ <= 0.0)
-    return kFirstStates;
-  return std::max(kLeastPart, static_cast<std::size_t>(std::min(kSecondsOfPart / seconds_per_state_, 1e15)));
-}
-
-BatchResult SharedChecker::checkPart(const double* states, std::size_t first, std::size_t count,
-                                     const std::string& group)
-{
-  const core::RobotModel& robot = *scene_->robot;
-  try
-  {
-    return checker_->check(states + first * robot.variables().size(), count, group);
-  }
-  catch (const core::Error&)
-  {
-    // A message about a wrong value counts the states of the part. This one counts those of the call.
-    core::validateStates(robot, states, first + count);
-    throw;
-  }
-}
-
 BatchResult SharedChecker::check(const double* states, std::size_t count, const std::string& group,
                                  Interrupt& interrupt)
 {
   const Call call(*this);
+  core::StateBatch batch{states, count, group};
+  batch.go_on = [&interrupt](std::size_t) { return !interrupt.requested(); };
   BatchResult result;
-  std::size_t done = 0;
-  do
+  try
   {
-    const std::size_t part = std::min(count - done, statesOfPart());
-    BatchResult next = checkPart(states, done, part, group);
-    if (part >= kLeastPart)
-      seconds_per_state_ = next.seconds / static_cast<double>(part);
-    if (done == 0)
-      result = std::move(next);
-    else
-      result.append(next);
-    done += part;
-  } while (done < count && !interrupt.requested());
+    result = checker_->checkBatch(batch);
+  }
+  catch (const core::Cancelled&)
+  {
+    return {};
+  }
+  const std::string warning = checker_->deviceWarning();
+  if (warning != known_warning_ && !warning.empty())
+    warnWithLock(warning);
+  known_warning_ = warning;
   return result;
 }
 
@@ -234,28 +205,29 @@ void addStateChecker(py::module_& module)
       "takes "
       "the first hardware device, or software if there is none; \"software\"; an index of list_devices() as a str; a "
       "part of a renderer's name; several devices as \"0+1\"; all GPUs as \"all\". All devices give the same `valid`. "
-      "If a device of \"auto\" or \"all\" fails, also later or while it takes a new scene, it is opened again; if that "
-      "fails too, a UserWarning gives the reason, and the CPU answers. "
+      "A device that fails is opened again; while it cannot be used, the CPU answers, and a UserWarning gives the "
+      "reason. "
       "tolerance: metres; 0: exact; above 0, bodies within this distance may be reported as colliding. max_batch: the "
-      "most states that go to the GPU at once. cpu_below: the CPU checks batches of fewer states; None: the "
-      "checker measures at which size the GPU becomes faster. traversal: \"work_queue\" or \"breadth_first\".\n\n"
+      "most states that go to a device at once. device_only: the devices check all states that they can; otherwise "
+      "the cores of the CPU work beside them, and check small batches alone. traversal: \"work_queue\" or "
+      "\"breadth_first\".\n\n"
       "Thread-safe: calls are served one after the other, and other threads of Python run meanwhile. Raises Error if "
-      "there is no device, if a device that `device` names cannot be used, or if the scene or an option is not valid. "
-      "Raises DeviceLost if such a device fails later.\n\n"
+      "a device that `device` names cannot be used, or if the scene or an option is not valid.\n\n"
       "    checker = gps.StateChecker(scene, device=\"cpu\")\n"
       "    result = checker.check(robot.random_states(1000, seed=1))\n"
       "    print(result.valid.mean())");
   checker
       .def(py::init(&openedOnDevice), py::arg("scene"), py::arg("device") = defaults.device,
            py::arg("tolerance") = defaults.tolerance, py::arg("max_batch") = defaults.max_batch,
-           py::arg("cpu_below") = py::none(), py::arg("traversal") = "work_queue")
+           py::arg("device_only") = defaults.device_only, py::arg("traversal") = "work_queue")
       .def(
           "check", &checkStates, py::arg("states"), py::arg("group") = "",
           "Checks states.\n\nstates: shape (n, variables) or (variables,), radians and metres; or a str or a list of "
           "str: "
           "names of states of the SRDF. Variables that a named state does not set have their values from the scene's "
           "current_state. A C-contiguous array "
-          "of float64 is not copied; it must not change during the call. group: only pairs with a link that this "
+          "of float64 is copied only for a device; it must not change during the call. group: only pairs with a link "
+          "that this "
           "planning group moves are checked. Returns a BatchResult.\n\nRaises Error for another shape, an unknown "
           "group, values that are not finite or too large, and a state that the SRDF does not name. Ctrl-C ends a long "
           "call.\n\n"

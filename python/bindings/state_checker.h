@@ -16,7 +16,7 @@ class Interrupt;
 class SharedChecker;
 using CheckerPtr = std::shared_ptr<SharedChecker>;
 
-/// A checker with its scene. It splits long calls into parts, between which Ctrl-C can end the call. All functions are
+/// A checker with its scene. Ctrl-C ends long calls. All functions are
 /// called without the interpreter's lock, and are thread-safe: calls are served one after the other.
 class SharedChecker
 {
@@ -52,14 +52,11 @@ class SharedChecker
   };
 
  private:
-  std::size_t statesOfPart() const;
-  core::BatchResult checkPart(const double* states, std::size_t first, std::size_t count, const std::string& group);
-
   std::shared_ptr<core::StateChecker> checker_;
   mutable std::mutex scene_mutex_;  // held only for a moment
   std::shared_ptr<const core::PlanningScene> scene_;
   std::mutex mutex_;                                        // held by a Call
   std::atomic<std::thread::id> caller_{std::thread::id()};  // the thread that holds it
-  double seconds_per_state_ = 0.0;                          // of the last part; 0: not measured
+  std::string known_warning_;                               // of the device; guarded by mutex_
 };
 }  // namespace gpu_planning_scene::python

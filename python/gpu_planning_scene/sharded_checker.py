@@ -18,16 +18,18 @@ ANSWERED, UNABLE, BUSY, OTHER_SCENES, REFUSED = range(5)
 
 
 def _outcome(response, revision):
-    """What a response means: see CheckStates.srv."""
+    """What a response means: see Status.msg.
+
+    A node with an internal error counts as one that refuses the request: other nodes get the request too, but if all of
+    them fail, the client does not try again and again.
+    """
+    from gpu_planning_scene.msg import Status
     if response is None:
         return UNABLE
-    if response.success:
+    if response.status == Status.OK:
         return ANSWERED if revision in (0, response.scene_revision) else OTHER_SCENES
-    for prefix, outcome in (("busy: ", BUSY), ("revision ", OTHER_SCENES), ("shutting down: ", UNABLE),
-                            ("the scene of ", UNABLE)):
-        if response.message.startswith(prefix):
-            return outcome
-    return REFUSED
+    return {Status.BUSY: BUSY, Status.UNKNOWN_REVISION: OTHER_SCENES, Status.SHUTTING_DOWN: UNABLE,
+            Status.UNAVAILABLE: UNABLE}.get(response.status, REFUSED)
 
 
 class _Node:
@@ -106,19 +108,20 @@ class _Failures:
     def __init__(self):
         self._all = []
 
-    def add(self, outcome, text):
-        self._all.append((outcome, text))
+    def add(self, outcome, status, text):
+        self._all.append((outcome, status, text))
 
-    def text(self):
-        refusals = [text for outcome, text in self._all if outcome == REFUSED]
-        return (refusals or [text for _, text in self._all])[-1]
+    def reported(self):
+        """The status and the text for the user."""
+        refusals = [failure for failure in self._all if failure[0] == REFUSED]
+        return (refusals or self._all)[-1][1:]
 
     def are_final(self):
         """Whether no other node and no later time will help."""
-        return all(outcome == REFUSED for outcome, _ in self._all)
+        return all(outcome == REFUSED for outcome, _, _ in self._all)
 
     def lack_scene(self):
-        return any(outcome == OTHER_SCENES for outcome, _ in self._all)
+        return any(outcome == OTHER_SCENES for outcome, _, _ in self._all)
 
 
 class ShardedChecker:
@@ -138,7 +141,7 @@ class ShardedChecker:
     """
 
     def __init__(self, nodes, part_states=16384, timeout=30.0, patience=10.0):
-        from gpu_planning_scene.msg import PlanningScene, PlanningSceneComponents
+        from gpu_planning_scene.msg import PlanningScene, PlanningSceneComponents, Status
         from gpu_planning_scene.srv import CheckStates, CheckStatesRequest, CheckStatesResponse
         from gpu_planning_scene.srv import GetPlanningScene, GetPlanningSceneRequest, GetReport, GetReportRequest
         if not nodes:
@@ -152,6 +155,8 @@ class ShardedChecker:
         self._request = CheckStatesRequest
         self._response = CheckStatesResponse
         self._no_change = PlanningScene()
+        self._unavailable = Status.UNAVAILABLE
+        self._unknown_revision = Status.UNKNOWN_REVISION
         state = GetPlanningSceneRequest(PlanningSceneComponents(components=PlanningSceneComponents.ROBOT_STATE))
         self._ask_state = ("get_planning_scene", GetPlanningScene, state)
         self._ask_report = ("get_report", GetReport, GetReportRequest())
@@ -161,14 +166,15 @@ class ShardedChecker:
 
         If the request names no revision, it is the newest one of the first node that answers: that of the leader, while
         it runs. success is False if all nodes refuse the request, or if no node has answered for `patience` seconds.
-        seconds is the sum of the parts. These requests go to one node as a whole: at most 4096 states; with a
+        status then has the reason of a node that refuses the request, or the last reason; UNAVAILABLE if a node has not
+        replied. seconds is the sum of the parts. These requests go to one node as a whole: at most 4096 states; with a
         scene_diff; with a joint for which neither the request nor the first node gives a value, for example a base
         whose pose only tf knows.
         """
         request = args[0] if args and isinstance(args[0], self._request) else self._request(*args, **kwargs)
         until = time.monotonic() + self._patience
         work = None
-        text = "no node gives its scene"
+        status, text = self._unavailable, "no node gives its scene"
         while True:
             scene = self._scene() if work is None else None
             if scene:
@@ -179,20 +185,20 @@ class ShardedChecker:
                 self._serve_all(work, failures, until)
                 if work.answered() == len(work.parts):
                     return _joined(work.answers)
-                text = failures.text()
+                status, text = failures.reported()
                 if failures.are_final():
-                    return self._failed(text)
+                    return self._failed(status, text)
                 if work.answered() > answered:
                     until = time.monotonic() + self._patience
                 # The next round begins with the newest scene, unless the request names another one.
                 if failures.lack_scene() and request.scene_revision == 0:
                     work = None
             if time.monotonic() > until:
-                return self._failed("no node can answer; the last reason: " + text)
+                return self._failed(status, "no node can answer; the last reason: " + text)
             time.sleep(RETRY)
 
-    def _failed(self, text):
-        return self._response(success=False, message=text)
+    def _failed(self, status, text):
+        return self._response(success=False, status=status, message=text)
 
     def _scene(self):
         """The revision and the robot's state of the first node that answers; None if none does."""
@@ -251,8 +257,11 @@ class ShardedChecker:
                 continue
             work.give_back(part)
             if outcome != BUSY or time.monotonic() > until:
-                text = "the node does not answer" if response is None else response.message
-                failures.add(outcome, f"{node.name}: {text}")
+                status, text = self._unavailable, "the node does not answer"
+                if response is not None:
+                    status = self._unknown_revision if outcome == OTHER_SCENES else response.status
+                    text = response.message
+                failures.add(outcome, status, f"{node.name}: {text}")
                 return
             time.sleep(PAUSE)
 

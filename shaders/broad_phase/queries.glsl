@@ -1,5 +1,5 @@
 // The queries of the broad phase in the order in which they run (BroadPhaseQueries in
-// src/collision/gpu/broad_phase_order.h).
+// src/collision/gpu/broad_phase/broad_phase_order.h).
 layout(location = LOCATION_FIRST_QUERY) uniform uint first_query;
 layout(location = LOCATION_QUERY_COUNT) uniform uint query_count;
 layout(binding = UNIT_QUERIES) uniform usamplerBuffer queries;

@@ -1,7 +1,8 @@
-// Parts of the kinematics shader that the C++ code generates for a robot (src/collision/gpu/kinematics_shader.cpp). It
-// computes in double precision, so the link poses are as accurate as those of the CPU. The only loss is the rounding of
-// the poses to float (docs/error_bounds.md). The method is that of src/model/kinematics.cpp, the sine and cosine those
-// of src/model/sine.cpp. Lengths are in metres, angles in radians.
+// Parts of the kinematics shader that the C++ code generates for a robot
+// (src/collision/gpu/problem/kinematics_shader.cpp). It computes in double precision, so the link poses are as accurate
+// as those of the CPU. The only loss is the rounding of the poses to float (docs/error_bounds.md). The method is that
+// of src/model/kinematics.cpp, the sine and cosine those of src/base/sine.cpp. Lengths are in metres, angles in
+// radians.
 #include "problem/instances.glsl"
 #include "problem/instance_lists.glsl"
 #include "problem/states.glsl"
@@ -26,7 +27,7 @@ DoublePose compose(DoublePose a, DoublePose b)
   return DoublePose(a.rotation * b.rotation, a.rotation * b.translation + a.translation);
 }
 
-// Sine and cosine for |x| <= 2^20: argument reduction as in src/model/sine.cpp (Cody and Waite 1980), then Taylor
+// Sine and cosine for |x| <= 2^20: argument reduction as in src/base/sine.cpp (Cody and Waite 1980), then Taylor
 // series.
 void sineCosine(double x, out double sine, out double cosine)
 {

@@ -1,4 +1,4 @@
-// The oriented boxes of two robot instances, as in src/collision/filter/lanes/lane_boxes.h: the test of two boxes by
+// The oriented boxes of two robot instances, as in src/collision/cpu/lanes/lane_boxes.h: the test of two boxes by
 // their 15 possible separating axes (Gottschalk, Lin and Manocha, "OBBTree", 1996). Lengths are in metres.
 
 struct PlacedBox

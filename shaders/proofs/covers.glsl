@@ -1,4 +1,4 @@
-// The balls of covers (src/collision/filter/proofs/ball_cover.h): outer balls contain a shape, inner balls are inside
+// The balls of covers (src/collision/proofs/ball_cover.h): outer balls contain a shape, inner balls are inside
 // it. If all outer balls of two shapes are apart, so are the shapes; if two inner balls overlap, the shapes collide.
 // Outer and inner balls: Weller and Zachmann, "Inner sphere trees", 2009. docs/error_bounds.md derives the thresholds.
 layout(binding = UNIT_FRAMES) uniform usamplerBuffer frame_texels;  // see state_proofs.glsl

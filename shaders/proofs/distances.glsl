@@ -1,4 +1,4 @@
-// Squared distances of a point from the objects of the proofs (src/collision/filter/lanes/lane_distances.h). Lengths
+// Squared distances of a point from the objects of the proofs (src/collision/cpu/lanes/lane_distances.h). Lengths
 // are in metres.
 
 // In a plane, from a segment that begins at the origin and runs along `along`.

@@ -1,5 +1,5 @@
 // Parts of the forward kinematics in float that the C++ code generates for a robot
-// (src/collision/gpu/proofs/frames_text.cpp), as in src/collision/filter/lanes/lane_kinematics.h. Lengths are in
+// (src/collision/gpu/proofs/frames_text.cpp), as in src/collision/cpu/lanes/lane_kinematics.h. Lengths are in
 // metres, angles in radians.
 
 // Angles modulo 2 pi, in [-pi, pi].

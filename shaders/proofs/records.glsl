@@ -1,4 +1,4 @@
-// The scene as the proofs read it: src/collision/filter/lanes/lane_model.h in texels, which
+// The scene as the proofs read it: src/collision/cpu/lanes/lane_model.h in texels, which
 // src/collision/gpu/proofs/proof_texels.cpp writes. Lengths are in metres. Texels of a record, in this order:
 //   cells:          of the tables, one table after the other: TABLE_*
 //   frame:          the first of its centres, their end

@@ -1,5 +1,5 @@
 // The proofs of a state, one invocation each: joint tables and enclosing balls decide most pairs, as in the lane kernel
-// (src/collision/filter/lanes/lane_kernel_body.h). Tables also prove collisions; enclosing balls only prove pairs apart
+// (src/collision/cpu/lanes/lane_kernel_body.h). Tables also prove collisions; enclosing balls only prove pairs apart
 // here. A state without a hit and without open pairs is free. Pairs without a proof go to the lists of open pairs. This
 // file has what the generated part of the shader uses (src/collision/gpu/proofs/state_shader.cpp); state_main.glsl
 // follows it. Lengths are in metres.

@@ -3,12 +3,17 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <optional>
+#include <string>
 #include <thread>
 #include <utility>
 
 #include <gpu_planning_scene/GetPlanningScene.h>
 #include <gpu_planning_scene/GetReport.h>
 #include <gpu_planning_scene/PlanningSceneComponents.h>
+#include <gpu_planning_scene/Status.h>
 
 #include "client/node_connections.h"
 #include "client/request_parts.h"
@@ -24,6 +29,7 @@ namespace
 using Clock = std::chrono::steady_clock;
 using Request = ShardedChecker::Request;
 using Response = ShardedChecker::Response;
+using gpu_planning_scene::Status;
 
 constexpr std::size_t kPartsPerNode = 2;         // or more, so that a slow node does not hold up the others
 constexpr std::size_t kUnsplitStates = 4096;     // of a request for one node: fewer are not worth the threads
@@ -40,30 +46,39 @@ enum class Outcome
   Refused       ///< it does not accept the request
 };
 
-bool beginsWith(const std::string& text, const std::string& prefix)
-{
-  return text.compare(0, prefix.size(), prefix) == 0;
-}
-
-/// See CheckStates.srv.
+/// See Status.msg. A node with an internal error counts as one that refuses the request: other nodes get the request
+/// too, but if all of them fail, the client does not try again and again.
 Outcome outcomeOf(const Response& response, std::uint64_t revision)
 {
-  if (response.success)
-    return revision == 0 || response.scene_revision == revision ? Outcome::Answered : Outcome::OtherScenes;
-  if (beginsWith(response.message, "busy: "))
-    return Outcome::Busy;
-  if (beginsWith(response.message, "revision "))
-    return Outcome::OtherScenes;
-  const bool is_unable =
-      beginsWith(response.message, "shutting down: ") || beginsWith(response.message, "the scene of ");
-  return is_unable ? Outcome::Unable : Outcome::Refused;
+  switch (response.status)
+  {
+    case Status::OK:
+      return revision == 0 || response.scene_revision == revision ? Outcome::Answered : Outcome::OtherScenes;
+    case Status::BUSY:
+      return Outcome::Busy;
+    case Status::UNKNOWN_REVISION:
+      return Outcome::OtherScenes;
+    case Status::SHUTTING_DOWN:
+    case Status::UNAVAILABLE:
+      return Outcome::Unable;
+    default:
+      return Outcome::Refused;
+  }
 }
 
-Response failed(const std::string& message)
+/// Why there is no answer.
+struct Failure
+{
+  std::uint8_t status = Status::UNAVAILABLE;
+  std::string message;
+};
+
+Response failed(const Failure& failure)
 {
   Response response;
   response.success = 0;
-  response.message = message;
+  response.status = failure.status;
+  response.message = failure.message;
   return response;
 }
 
@@ -71,27 +86,27 @@ Response failed(const std::string& message)
 class Failures
 {
  public:
-  void add(Outcome outcome, const std::string& text)
+  void add(Outcome outcome, const Failure& failure)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (outcome == Outcome::Refused)
-      refusal_ = text;
+      refusal_ = failure;
     else
       is_passing_ = true;
     lacks_scene_ = lacks_scene_ || outcome == Outcome::OtherScenes;
-    last_ = text;
+    last_ = failure;
   }
 
   bool lacksScene() const { return lacks_scene_; }
-  /// The text for the user.
-  const std::string& text() const { return refusal_.empty() ? last_ : refusal_; }
+  /// The failure for the user.
+  const Failure& reported() const { return refusal_ ? *refusal_ : last_; }
   /// Whether no other node and no later time will help.
-  bool areFinal() const { return !refusal_.empty() && !is_passing_; }
+  bool areFinal() const { return refusal_ && !is_passing_; }
 
  private:
   std::mutex mutex_;
-  std::string refusal_;
-  std::string last_;
+  std::optional<Failure> refusal_;
+  Failure last_;
   bool is_passing_ = false;
   bool lacks_scene_ = false;
 };
@@ -173,7 +188,13 @@ struct ShardedChecker::Impl
       work.giveBack(*part);
       if (outcome != Outcome::Busy || Clock::now() > until)
       {
-        failures.add(outcome, node.node() + ": " + (was_answered ? response.message : "the node does not answer"));
+        Failure failure;
+        if (was_answered)
+          failure.status = response.status;
+        if (outcome == Outcome::OtherScenes)
+          failure.status = Status::UNKNOWN_REVISION;
+        failure.message = node.node() + ": " + (was_answered ? response.message : "the node does not answer");
+        failures.add(outcome, failure);
         return;
       }
       std::this_thread::sleep_for(kPause);
@@ -203,7 +224,7 @@ struct ShardedChecker::Impl
     Clock::time_point until = Clock::now() + patience;
     std::unique_ptr<SharedWork> work;
     std::size_t parts = 0;
-    std::string text = "no node gives its scene";
+    Failure failure{Status::UNAVAILABLE, "no node gives its scene"};
     for (;;)
     {
       CommonState common;
@@ -221,9 +242,9 @@ struct ShardedChecker::Impl
         serveAll(*work, parts, failures, until);
         if (work->isComplete())
           return joined(work->takeAnswers());
-        text = failures.text();
+        failure = failures.reported();
         if (failures.areFinal())
-          return failed(text);
+          return failed(failure);
         if (work->answeredCount() > answered)
           until = Clock::now() + patience;
         // The next round begins with the newest scene, unless the request names another one.
@@ -231,7 +252,7 @@ struct ShardedChecker::Impl
           work.reset();
       }
       if (Clock::now() > until)
-        return failed("no node can answer; the last reason: " + text);
+        return failed({failure.status, "no node can answer; the last reason: " + failure.message});
       std::this_thread::sleep_for(kRetry);
     }
   }

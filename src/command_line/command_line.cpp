@@ -4,7 +4,7 @@
 #include <iostream>
 #include <new>
 
-#include "model/text/parse_number.h"
+#include "base/text/parse_number.h"
 
 namespace gpu_planning_scene::core
 {

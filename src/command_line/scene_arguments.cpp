@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/text/parse_number.h"
 #include "command_line/robot_arguments.h"
-#include "model/text/parse_number.h"
 
 namespace gpu_planning_scene::core
 {

@@ -17,7 +17,7 @@ class Fence
 
   /// Waits until the device has executed all commands before the mark, then forgets the mark. Throws DeviceLost if the
   /// device fails or its context is lost meanwhile. A device that hangs without an error is the business of
-  /// ResilientChecker. `what`: the operation, for the message.
+  /// DeviceWorker. `what`: the operation, for the message.
   void wait(const char* what);
   void drop();
 

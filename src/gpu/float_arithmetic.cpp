@@ -9,9 +9,9 @@
 #include <sstream>
 #include <vector>
 
+#include "base/seconds_since.h"
 #include "gpu/buffer.h"
 #include "gpu/program.h"
-#include "model/seconds_since.h"
 #include "shader_constants.h"
 
 // Runs kernels on known numbers and compares their results with those of the CPU in double, in which the sum and the

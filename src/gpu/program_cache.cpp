@@ -7,7 +7,7 @@
 
 #include <epoxy/gl.h>
 
-#include "model/files/file_cache.h"
+#include "base/file_cache.h"
 
 namespace gpu_planning_scene::core
 {

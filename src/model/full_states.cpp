@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "base/text/name_list.h"
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/name_list.h"
-#include "model/text/number_text.h"
 #include "model/virtual_joint.h"
 
 namespace gpu_planning_scene::core

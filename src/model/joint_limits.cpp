@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "model/math_constants.h"
+#include "base/math_constants.h"
 
 // A value may exceed its limit by the rounding of a value with six decimals. A large angle is probably in degrees if it
 // would then be within its limits. Own method.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "model/text/nearest_key.h"
+#include "base/text/nearest_key.h"
 
 namespace gpu_planning_scene::core
 {

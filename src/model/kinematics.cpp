@@ -1,6 +1,6 @@
 #include "model/kinematics.h"
 
-#include "model/sine.h"
+#include "base/sine.h"
 
 // Forward kinematics with precomputed constants for each joint: see Kinematics::Step. The pose of a link is the pose of
 // its parent times the pose of its joint. Rotations use Rodrigues' formula (K. M. Lynch, F. C. Park: Modern Robotics,

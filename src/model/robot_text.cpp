@@ -4,9 +4,9 @@
 #include <iterator>
 #include <map>
 
-#include "model/text/name_list.h"
-#include "model/text/number_text.h"
-#include "model/text/one_line.h"
+#include "base/text/name_list.h"
+#include "base/text/number_text.h"
+#include "base/text/one_line.h"
 
 namespace gpu_planning_scene::core
 {

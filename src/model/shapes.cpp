@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/number_text.h"
 
 namespace gpu_planning_scene::core
 {

@@ -4,9 +4,9 @@
 #include <map>
 #include <stdexcept>
 
+#include "base/math_constants.h"
 #include "gpu_planning_scene/shapes.h"
 #include "gpu_planning_scene/solids.h"
-#include "model/math_constants.h"
 
 // Triangles for solids: boxes exactly, cylinders and cones by inscribed regular polygons, spheres by a subdivided
 // icosahedron (M. J. Wenninger: Spherical Models, 1979). All vertices are on the true surface. The sagitta is the

@@ -7,7 +7,7 @@
 
 #include <geometric_shapes/shapes.h>
 
-#include "collision/exact/cpu_tree.h"
+#include "collision/trees/cpu_tree.h"
 #include "gpu_planning_scene/shapes.h"
 
 namespace gpu_planning_scene::detector

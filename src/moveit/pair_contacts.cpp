@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "collision/exact/cpu_forest.h"
+#include "collision/trees/cpu_forest.h"
 
 // The exact tests have decided that the instances collide, or how far they are from each other.
 namespace gpu_planning_scene::detector

@@ -10,7 +10,7 @@
 
 #include <moveit/collision_detection/world.h>
 
-#include "collision/exact/object_tree.h"
+#include "collision/trees/object_tree.h"
 #include "moveit/shape_instance.h"
 
 namespace gpu_planning_scene::detector

@@ -50,7 +50,6 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   const ServiceOptions options = serviceOptionsFromParameters(own);
   const CheckServerOptions server_options = serverOptionsFromParameters(own);
   const BatchCheckerOptions checker_options = checkerOptionsFromParameters(own);
-  const ResilientOptions resilience = resilienceFromParameters(own);
   const SceneLimits limits = sceneLimitsFromParameters(own);
   const PlanServiceOptions plan_options = planOptionsFromParameters(own);
   KinematicsOptions kinematics_options = kinematicsOptionsFromParameters(own);
@@ -75,8 +74,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   Diagnostics diagnostics;
   SceneStore store(std::move(scene), defaults, limits, [&base](std::int64_t stamp) { return base.at(stamp); });
   known = &store;
-  const CheckServer::MakeChecker make_checker = diagnostics.watched(makeResilientCheckers(
-      checker_options, resilience, open_device, [](const std::string& warning) { ROS_WARN_STREAM(warning); }));
+  const CheckServer::MakeChecker make_checker = diagnostics.watched(
+      makeCheckers(checker_options, open_device, [](const std::string& warning) { ROS_WARN_STREAM(warning); }));
   // A CPU checks few states as fast as a device, on the thread of the caller, and its checker needs no memory of a
   // device.
   const CheckServer::MakeChecker make_cpu_checker = [&checker_options](std::shared_ptr<const PlanningScene> its_scene)
@@ -119,36 +118,48 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
     leader.emplace(node, own, follow_options, setup, store, changes);
     diagnostics.watchScene([&leader] { return leader->fault(); });
   }
-  const Endpoints::Refusal leader_fault = [&leader] { return leader ? leader->fault() : ""; };
-  MoveItInterface moveit({node, own, store, changes, checks, kinematics, lookup, diagnostics, options, leader_fault});
-  const Endpoints::Refusal scene_fault = [&] { return leader ? leader_fault() : moveit.sceneFault(); };
-  const Endpoints::Refusal change_fault = [&] { return leader ? leader->changeFault() : moveit.changeFault(); };
+  const Endpoints::Precondition require_leader = [&leader]
+  {
+    if (leader)
+      leader->requireScene();
+  };
+  MoveItInterface moveit({node, own, store, changes, checks, kinematics, lookup, diagnostics, options, require_leader});
+  const Endpoints::Precondition require_scene = [&]
+  {
+    require_leader();
+    moveit.requireScene();
+  };
+  const Endpoints::Precondition require_own_scene = [&]
+  {
+    if (const std::string fault = leader ? leader->changeFault() : moveit.changeFault(); !fault.empty())
+      throw Error(fault);
+  };
 
-  Endpoints change_requests(node, own, 3, diagnostics, change_fault);
+  Endpoints change_requests(node, own, 3, diagnostics, require_own_scene);
   change_requests.advertise<ApplyPlanningScene>(
       "apply_planning_scene", [&](const ApplyPlanningScene::Request& r) { return changes.apply(r); });
   change_requests.advertise<Clear>("clear", [&](const Clear::Request&) { return changes.clear(); });
-  Endpoints scene_requests(node, own, 3, diagnostics, scene_fault);
+  Endpoints scene_requests(node, own, 3, diagnostics, require_scene);
   scene_requests.advertise<GetPlanningScene>(
       "get_planning_scene", [&](const GetPlanningScene::Request& r) { return changes.get(r); });
   scene_requests.advertise<ShowTreeLevel>("show_tree_level",
                                           [&](const ShowTreeLevel::Request& r) { return markers.show(r); });
 
   SceneTopics scene_topics(node, own, changes, lookup, diagnostics, options.max_waiting_changes, options.message_size,
-                           change_fault);
+                           require_own_scene);
   scene_topics.subscribeToOwn();
-  Endpoints cloud_topics(node, own, 1, diagnostics, change_fault);
+  Endpoints cloud_topics(node, own, 1, diagnostics, require_own_scene);
   cloud_topics.subscribe<sensor_msgs::PointCloud2>(options.cloud_topic, 1,
                                                    [&](const sensor_msgs::PointCloud2& m) { clouds.take(m); });
   Endpoints state_topics(node, own, 1, diagnostics);
   state_topics.subscribe<sensor_msgs::JointState>("joint_states", 100,
                                                   [&](const sensor_msgs::JointState& m) { changes.take(m); });
 
-  Endpoints plan_requests(node, own, plan_options.at_once + plan_options.max_waiting + 1, diagnostics, scene_fault);
+  Endpoints plan_requests(node, own, plan_options.at_once + plan_options.max_waiting + 1, diagnostics, require_scene);
   plan_requests.advertise<PlanMotion>("plan", [&](const PlanMotion::Request& r) { return plans.plan(r); });
 
   Endpoints kinematics_requests(node, own, KinematicsServices::kSearchingRequests + kinematics_options.max_waiting + 2,
-                                diagnostics, scene_fault);
+                                diagnostics, require_scene);
   kinematics_requests.advertise<ComputeIk>(
       "compute_ik", [&](const ComputeIk::Request& r) { return kinematics.computeIk(r); });
   kinematics_requests.advertise<ComputeCartesianPath>(
@@ -161,7 +172,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   // max_waiting_requests requests each can be in the two running batches of small requests, in their queue, in the
   // queue of large requests, in the queue for contacts, and waiting for a revision. check_states is advertised last:
   // when it is there, all other services are.
-  Endpoints check_requests(node, own, 6 * server_options.max_waiting_requests + 8, diagnostics, scene_fault);
+  Endpoints check_requests(node, own, 6 * server_options.max_waiting_requests + 8, diagnostics, require_scene);
   check_requests.advertise<CheckMotions>(
       "check_motions", [&](const CheckMotions::Request& r) { return checks.checkMotions(r); });
   check_requests.advertise<CheckTrajectory>(

@@ -15,6 +15,8 @@
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include "base/seconds_since.h"
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "gpu_planning_scene/planning/motion_validator.h"
@@ -23,8 +25,6 @@
 #include "gpu_planning_scene/planning/path_shortcutter.h"
 #include "gpu_planning_scene/planning/state_validity_checker.h"
 #include "model/full_states.h"
-#include "model/seconds_since.h"
-#include "model/text/number_text.h"
 #include "planning/goals/checked_endpoints.h"
 #include "planning/goals/goal_regions.h"
 #include "planning/planner_parameters.h"

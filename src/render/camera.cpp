@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/math_constants.h"
+#include "base/math_constants.h"
 #include "render/drawing.h"
 #include "render/renderer.h"
 

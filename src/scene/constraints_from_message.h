@@ -8,10 +8,10 @@
 
 #include <Eigen/Geometry>
 
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/kinematic_constraints.h"
 #include "gpu_planning_scene/scene_change.h"
-#include "model/text/number_text.h"
 #include "scene/link_frame.h"
 
 // Messages with the fields of moveit_msgs/Constraints become constraints. The functions are templates, because MoveIt's

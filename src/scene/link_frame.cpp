@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "base/text/nearest_key.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/nearest_key.h"
 #include "scene/frame.h"
 
 namespace gpu_planning_scene::core

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/text/name_list.h"
+#include "base/text/nearest_key.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/name_list.h"
-#include "model/text/nearest_key.h"
 
 namespace gpu_planning_scene::core
 {

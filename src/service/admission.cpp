@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "service/busy.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -25,7 +25,7 @@ void Admission::enter()
   const std::uint64_t number = arrived_++;
   changed_.wait(lock, [&] { return stopping_ || number < departed_ + max_inside_; });
   if (stopping_)
-    throw Error("shutting down: the request was not answered");
+    throw ShuttingDown();
 }
 
 void Admission::leave()

@@ -18,7 +18,7 @@ class Admission
   class Pass
   {
    public:
-    /// Waits to be admitted. Throws Busy immediately if too many callers wait; throws Error after stop().
+    /// Waits to be admitted. Throws Busy immediately if too many callers wait; throws ShuttingDown after stop().
     explicit Pass(Admission& admission) : admission_(admission) { admission.enter(); }
     ~Pass() { admission_.leave(); }
     Pass(const Pass&) = delete;
@@ -28,7 +28,7 @@ class Admission
     Admission& admission_;
   };
 
-  /// Admits no further caller. Waiting callers get an Error "shutting down".
+  /// Admits no further caller. Waiting callers get ShuttingDown.
   void stop();
 
  private:

@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "service/busy.h"
+#include "service/service_errors.h"
 
 // Consecutive changes become one change if that leads to the same scene. If this change is rejected, bisection finds
 // the wrong ones. Own method.
@@ -56,7 +56,7 @@ void ChangeQueue::add(std::string source, SceneChange change, std::size_t bytes)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (stopping_)
-    throw Error("shutting down: the change was not made");
+    throw ShuttingDown("shutting down: the change was not made");
   const std::size_t changes = making_ + waiting_.size();
   if (changes >= max_changes_ || (changes != 0 && bytes_ + bytes > max_bytes_))
     throw Busy("busy: " + std::to_string(changes) + " changes of " + std::to_string(bytes_) +
@@ -125,7 +125,7 @@ void ChangeQueue::make(const ApplyChange& apply_change, const Changes& changes, 
   try
   {
     if (isStopping())
-      throw Error("shutting down: the change was not made");
+      throw ShuttingDown("shutting down: the change was not made");
     if (end == begin + 1)
     {
       apply_change(changes[begin].change);

@@ -21,10 +21,8 @@ CheckQueue::CheckQueue(const SceneStore& store, CheckServer::MakeChecker make_ch
                        const CheckServerOptions& options, std::size_t max_merged_states,
                        const CheckServer::MakeChecker& make_relief)
   : requests_(options, max_merged_states),
-    worker_(store, requests_, std::move(make_checker), options.max_batch_states,
-            [this](const CheckStatistics& answered) { count(answered); }),
-    relief_(store, requests_, make_relief, options.max_batch_states,
-            [this](const CheckStatistics& answered) { count(answered); }),
+    worker_(store, requests_, std::move(make_checker), [this](const CheckStatistics& answered) { count(answered); }),
+    relief_(store, requests_, make_relief, [this](const CheckStatistics& answered) { count(answered); }),
     has_relief_(make_relief),
     thread_(),
     relief_thread_()

@@ -9,11 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "collision/batch_size.h"
 #include "gpu_planning_scene/motion_checker.h"
 #include "gpu_planning_scene/state_checker.h"
-#include "service/busy.h"
 #include "service/scene_store.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -23,8 +22,6 @@ struct CheckServerOptions
   std::size_t max_waiting_requests = 64;     ///< in each queue
   std::size_t max_waiting_states = 4000000;  ///< in each queue; one request always fits
   std::size_t max_states = 1000000;          ///< in one request
-  /// The most states that are checked at once. The server takes fewer if so many would take longer than 0.5 s.
-  std::size_t max_batch_states = kLargestSlice;
 };
 
 /// A request to check states or motions. States are rows of values for some of the robot's variables. The other
@@ -106,8 +103,7 @@ class CheckServer
   /// The future gets the checker's errors, and an Error if a variable is neither given nor known.
   std::future<CheckAnswer> submit(CheckJob job);
 
-  /// Waits for the current batch of states (about 0.5 s). A request that needs no further batch is answered. Unfinished
-  /// requests, running motion checks, queued and later requests get an Error "shutting down".
+  /// Unfinished requests, running motion checks, queued and later requests get ShuttingDown.
   void stop();
 
   CheckStatistics statistics() const;

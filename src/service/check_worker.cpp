@@ -5,17 +5,12 @@
 #include <iterator>
 #include <utility>
 
-#include "model/seconds_since.h"
+#include "base/seconds_since.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-// A queue that stops waits for the current batch of states, so a batch should take no longer than this.
-constexpr double kBatchSeconds = 0.5;
-constexpr std::size_t kLeastBatch = 16;    // states
-constexpr std::size_t kFirstBatch = 1024;  // states
-
 /// Whether the rows already have all variables in the robot's order.
 bool isFull(const CheckJob& job, std::size_t width)
 {
@@ -77,12 +72,8 @@ CheckAnswer part(const CheckAnswer& whole, std::size_t first, const CheckRequest
 }  // namespace
 
 CheckWorker::CheckWorker(const SceneStore& store, const RequestQueue& queue, CheckServer::MakeChecker make_checker,
-                         std::size_t max_batch_states, Count count)
-  : store_(store),
-    queue_(queue),
-    make_checker_(std::move(make_checker)),
-    count_(std::move(count)),
-    batch_size_({kBatchSeconds, kFirstBatch, kLeastBatch, max_batch_states})
+                         Count count)
+  : store_(store), queue_(queue), make_checker_(std::move(make_checker)), count_(std::move(count))
 {
 }
 
@@ -153,7 +144,7 @@ CheckAnswer CheckWorker::check(CheckBatch& batch, std::size_t count)
 {
   const CheckJob& job = batch.front().job;
   const Snapshot now = takeScene(job);
-  std::vector<double> states = statesOf(batch, now);
+  const auto states = std::make_shared<std::vector<double>>(statesOf(batch, now));
   CheckAnswer answer;
   answer.scene = now.scene;
   if (job.motions)
@@ -166,7 +157,7 @@ CheckAnswer CheckWorker::check(CheckBatch& batch, std::size_t count)
   if (job.report)
     answer.report = checker_->report(job.group);
   if (std::any_of(batch.begin(), batch.end(), [](const CheckRequest& request) { return request.job.keep_states; }))
-    answer.states = std::move(states);
+    answer.states = *states;  // a device that hangs may still read them
   answer.device = checker_->deviceName();
   return answer;
 }
@@ -191,7 +182,6 @@ Snapshot CheckWorker::takeScene(const CheckJob& job)
     else
       checker_ = make_checker_(now.scene);
     checked_ = now.scene;
-    batch_size_.restart();
   }
   catch (...)
   {
@@ -202,35 +192,35 @@ Snapshot CheckWorker::takeScene(const CheckJob& job)
   return now;
 }
 
-BatchResult CheckWorker::checkStates(const std::vector<double>& states, std::size_t count, const std::string& group)
+BatchResult CheckWorker::checkStates(const std::shared_ptr<const std::vector<double>>& states, std::size_t count,
+                                     const std::string& group)
 {
-  const std::size_t width = checked_->robot->variables().size();
-  BatchResult all;
-  std::size_t from = 0;
-  do  // at least once: the checker must see an unknown group even without states
+  StateBatch batch{states->data(), count, group};
+  batch.owner = states;
+  batch.go_on = [this](std::size_t) { return !queue_.isStopping(); };
+  try
   {
-    if (from != 0 && queue_.isStopping())
-      std::rethrow_exception(shuttingDown());
-    const std::size_t rows = std::min(count - from, batch_size_.size());
-    const BatchResult part = checker_->check(states.data() + from * width, rows, group);
-    batch_size_.took(rows, part.seconds);
-    all.append(part);
-    from += rows;
-  } while (from < count);
-  return all;
+    return checker_->checkBatch(batch);
+  }
+  catch (const Cancelled&)
+  {
+    throw ShuttingDown();
+  }
 }
 
-void CheckWorker::checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer)
+void CheckWorker::checkMotions(const CheckJob& job, const std::shared_ptr<const std::vector<double>>& rows_of,
+                               CheckAnswer& answer)
 {
   const auto start = std::chrono::steady_clock::now();
   const MotionChecker checker(checker_, answer.scene->robot, job.group, *job.motions);
+  const std::vector<double>& states = *rows_of;
   const std::size_t width = answer.scene->robot->variables().size();
   const std::size_t rows = width == 0 ? 0 : states.size() / width;
   std::size_t count = rows / 2;
   const double* ends = states.data() + count * width;
   if (job.is_path)
   {
-    answer.result = checkStates(states, rows, job.group);
+    answer.result = checkStates(rows_of, rows, job.group);
     answer.states_checked = rows;
     count = rows == 0 ? 0 : rows - 1;
     ends = states.data() + (rows == 0 ? 0 : width);
@@ -240,7 +230,7 @@ void CheckWorker::checkMotions(const CheckJob& job, const std::vector<double>& s
   answer.motions =
       checker.check(states.data(), ends, count, MotionQuery::LastValid, [this] { return queue_.isStopping(); });
   if (queue_.isStopping())
-    std::rethrow_exception(shuttingDown());
+    throw ShuttingDown();
   answer.states_checked += checker.statesChecked();
   answer.result.revision = answer.scene->revision;
   answer.result.seconds = secondsSince(start);

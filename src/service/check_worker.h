@@ -6,7 +6,6 @@
 #include <memory>
 #include <vector>
 
-#include "collision/batch_size.h"
 #include "service/check_server.h"
 #include "service/request_queue.h"
 
@@ -21,8 +20,7 @@ class CheckWorker
   using Count = std::function<void(const CheckStatistics&)>;
 
   /// `queue` tells when to stop. `store` and `queue` must outlive the worker.
-  CheckWorker(const SceneStore& store, const RequestQueue& queue, CheckServer::MakeChecker make_checker,
-              std::size_t max_batch_states, Count count);
+  CheckWorker(const SceneStore& store, const RequestQueue& queue, CheckServer::MakeChecker make_checker, Count count);
 
   /// Makes the checker for the newest scene. Throws the errors of `make_checker`.
   void open() { takeScene({}); }
@@ -47,15 +45,16 @@ class CheckWorker
  private:
   CheckAnswer check(CheckBatch& batch, std::size_t count);
   Snapshot takeScene(const CheckJob& job);
-  BatchResult checkStates(const std::vector<double>& states, std::size_t count, const std::string& group);
-  void checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer);
+  BatchResult checkStates(const std::shared_ptr<const std::vector<double>>& states, std::size_t count,
+                          const std::string& group);
+  void checkMotions(const CheckJob& job, const std::shared_ptr<const std::vector<double>>& rows_of,
+                    CheckAnswer& answer);
   void fail(CheckRequest& request, std::exception_ptr error) const;
 
   const SceneStore& store_;
   const RequestQueue& queue_;
   const CheckServer::MakeChecker make_checker_;
   const Count count_;
-  BatchSize batch_size_;
   std::shared_ptr<StateChecker> checker_;
   std::shared_ptr<const PlanningScene> checked_;  // the checker's scene
 };

@@ -6,8 +6,8 @@
 #include <malloc.h>
 #include <unistd.h>
 
-#include "gpu_planning_scene/error.h"
-#include "model/text/memory_text.h"
+#include "base/text/memory_text.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -52,7 +52,7 @@ void MemoryGuard::require() const
   }
   const std::size_t used = residentMemory();
   if (used > max_)
-    throw Error("out of memory: the process uses " + megabytes(used) + ", and the limit is " + megabytes(max_) +
-                " (limits/memory); remove objects, or send the request later");
+    throw Unavailable("out of memory: the process uses " + megabytes(used) + ", and the limit is " + megabytes(max_) +
+                      " (limits/memory); remove objects, or send the request later");
 }
 }  // namespace gpu_planning_scene::core

@@ -49,16 +49,11 @@ bool canMerge(const CheckRequest& first, const CheckRequest& second)
 }
 }  // namespace
 
-std::exception_ptr shuttingDown()
-{
-  return std::make_exception_ptr(Error("shutting down: the request was not answered"));
-}
-
 std::future<CheckAnswer> RequestQueue::submit(CheckJob job, std::size_t count)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (stopping_)
-    std::rethrow_exception(shuttingDown());
+    throw ShuttingDown();
   if (waiting_.size() >= options_.max_waiting_requests ||
       (!waiting_.empty() && waiting_states_ + count > options_.max_waiting_states))
   {
@@ -141,7 +136,7 @@ void RequestQueue::stop()
     waiting_states_ = 0;
   }
   for (CheckRequest& request : unanswered)
-    request.answer.set_exception(shuttingDown());
+    request.answer.set_exception(std::make_exception_ptr(ShuttingDown()));
   wake_.notify_all();
 }
 

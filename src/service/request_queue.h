@@ -23,9 +23,6 @@ struct CheckRequest
 };
 using CheckBatch = std::deque<CheckRequest>;
 
-/// The error of requests that are not answered because the service ends.
-std::exception_ptr shuttingDown();
-
 /// The queued check requests. Two threads take requests: the first one takes all kinds of them, in their order; the
 /// second one takes requests of few states that have waited too long, because it is not known in advance how long a
 /// batch of the first thread takes. Thread-safe.
@@ -38,7 +35,7 @@ class RequestQueue
   {
   }
 
-  /// Throws Busy if the queue is full, and Error after stop().
+  /// Throws Busy if the queue is full, and ShuttingDown after stop().
   std::future<CheckAnswer> submit(CheckJob job, std::size_t count);
 
   /// For the first thread: waits for a request, and takes the oldest one and all that can be merged with it. The batch
@@ -52,7 +49,7 @@ class RequestQueue
   std::optional<CheckBatch> takeOverdue(const std::function<bool()>& is_ready,
                                         std::chrono::steady_clock::time_point rest);
 
-  /// All queued and later requests get an error, and waiting threads return.
+  /// All queued and later requests get ShuttingDown, and waiting threads return.
   void stop();
   bool isStopping() const;
 

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "base/text/name_list.h"
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
-#include "model/text/name_list.h"
-#include "model/text/number_text.h"
 #include "model/virtual_joint.h"
 #include "scene/changes/matrix_entries.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -305,9 +306,10 @@ Snapshot SceneStore::at(std::uint64_t revision, Clock::time_point until) const
       std::rotate(replaced, std::next(replaced), replaced_.end());
     }
     if (!scene)
-      throw Error("revision " + std::to_string(revision) +
-                  (revision > scene_->revision ? " of the scene has not arrived" : " of the scene is not kept") +
-                  "; the newest is " + std::to_string(scene_->revision));
+      throw UnknownRevision(
+          "revision " + std::to_string(revision) +
+          (revision > scene_->revision ? " of the scene has not arrived" : " of the scene is not kept") +
+          "; the newest is " + std::to_string(scene_->revision));
   }
   Snapshot then = snapshot();
   then.scene = std::move(scene);

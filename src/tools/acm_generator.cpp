@@ -5,9 +5,9 @@
 #include <mutex>
 #include <set>
 
+#include "base/parallel_for.h"
 #include "collision/bounds/reach.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/parallel_for.h"
 #include "tools/pair_sampler.h"
 #include "tools/progress_bar.h"
 #include "tools/separation_proof.h"

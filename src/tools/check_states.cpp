@@ -8,7 +8,6 @@
 
 #include <unistd.h>
 
-#include "collision/batch_size.h"
 #include "collision/checkers/open_checker.h"
 #include "collision/checkers/scene_text.h"
 #include "command_line/robot_arguments.h"
@@ -51,30 +50,37 @@ constexpr std::size_t kFewestStatesWithRate = 100;
 /// A terminal gets no more answers than it can show. The summary has the counts.
 constexpr std::size_t kMostRowsOfTerminal = 30;
 
-struct Checked
-{
-  BatchResult states;
-  std::size_t largest_batch = 0;
-};
+// So many states of a source are in memory at once.
+constexpr std::size_t kStatesInMemory = 524'288;
 
-/// Checks all states, in batches that take at most about half a second, so that the progress is seen.
-Checked checkAll(StateChecker& checker, StateSource& source, const std::string& group)
+BatchResult checkAll(StateChecker& checker, StateSource& source, const std::string& group)
 {
-  Checked all;
-  all.states.valid.reserve(source.count());
-  all.states.colliding.reserve(source.count());
-  BatchSize batch({0.5, 16384, 1024, kLargestSlice});
+  BatchResult all;
+  all.valid.reserve(source.count());
+  all.colliding.reserve(source.count());
   ProgressBar progress("checking", source.count());
-  while (all.states.valid.size() < source.count())
+  for (std::size_t begin = 0; begin < source.count(); begin += kStatesInMemory)
   {
-    const std::size_t count = std::min(batch.size(), source.count() - all.states.valid.size());
-    const BatchResult result = checker.check(source.next(count), count, group);
-    batch.took(count, result.seconds);
-    all.largest_batch = std::max(all.largest_batch, count);
-    all.states.append(result);
-    progress.update(all.states.valid.size());
+    StateBatch batch{source.next(std::min(kStatesInMemory, source.count() - begin)),
+                     std::min(kStatesInMemory, source.count() - begin), group};
+    batch.go_on = [&](std::size_t answered)
+    {
+      progress.update(begin + answered);
+      return true;
+    };
+    all.append(checker.checkBatch(batch));
+    progress.update(all.valid.size());
   }
   return all;
+}
+
+/// Who decided the states of the result.
+std::string workersText(const BatchResult& result, const std::string& device)
+{
+  const std::size_t decided_by_cpu = result.valid.size() - result.device_states;
+  if (result.device_states == 0)
+    return "CPU";
+  return decided_by_cpu > result.undecided_states ? "CPU + " + device : device;
 }
 
 void writeAnswers(std::ostream& out, const BatchResult& result, const PlanningScene& scene)
@@ -116,9 +122,8 @@ std::size_t countValid(const BatchResult& result)
 }
 
 void printSummary(const PlanningScene& scene, const SceneReport& report, const StateSource& source,
-                  const Checked& checked, const std::string& device)
+                  const BatchResult& result, const std::string& device)
 {
-  const BatchResult& result = checked.states;
   const std::size_t count = source.count();
   const std::size_t valid = countValid(result);
   char line[128];
@@ -139,8 +144,7 @@ void printSummary(const PlanningScene& scene, const SceneReport& report, const S
     std::snprintf(line, sizeof line, "%.0f states/s, ", static_cast<double>(count) / std::max(result.seconds, 1e-9));
     std::cerr << line;
   }
-  const bool all_on_cpu = report.cpu_below && checked.largest_batch < *report.cpu_below;
-  std::cerr << (all_on_cpu ? "CPU" : device) << "\n";
+  std::cerr << workersText(result, device) << "\n";
 }
 
 void run(const CommandLine& arguments)
@@ -168,11 +172,11 @@ void run(const CommandLine& arguments)
   }
 
   const BatchCheckerOptions options = checkerOptionsFrom(arguments);
-  const auto checker = openWithFallback(scene, options, [](const std::string& warning) { printWarnings({warning}); });
+  const auto checker = openChecker(scene, options, [](const std::string& warning) { printWarnings({warning}); });
   const std::string at_start = checker->deviceWarning();
   if (!at_start.empty())
     std::cerr << "warning: " << at_start << "\n";
-  const Checked checked = checkAll(*checker, *source, group);
+  const BatchResult result = checkAll(*checker, *source, group);
   if (const std::string warning = checker->deviceWarning(); warning != at_start)
     std::cerr << "warning: " << warning << "\n";
 
@@ -183,20 +187,20 @@ void run(const CommandLine& arguments)
   }
   else if (out_path.empty())
   {
-    writeAnswers(std::cout, checked.states, *scene);
+    writeAnswers(std::cout, result, *scene);
   }
   else
   {
     out_file.close();
     out_file.open(out_path, std::ios::trunc);
-    writeAnswers(out_file, checked.states, *scene);
+    writeAnswers(out_file, result, *scene);
     if (!out_file.flush())
       throw Error(out_path + ": writing the file failed");
   }
   std::cout.flush();
   const SceneReport report = checker->report(group);
   printWarnings(warningsOfScene(*scene, report));
-  printSummary(*scene, report, *source, checked, checker->deviceName());
+  printSummary(*scene, report, *source, result, checker->deviceName());
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
@@ -214,7 +218,7 @@ int main(int argc, char** argv)
                   "A summary goes to the standard error; its last line is\n"
                   "  N states, V valid, R states/s, DEVICE\n"
                   "For fewer than 100 states, 'R states/s' is left out, because most of the time is preparation.\n"
-                  "DEVICE is CPU if the CPU checked all batches.\n"
+                  "DEVICE is CPU, the device, or both: those that checked the states.\n"
                   "Exit code: 0 success, 2 bad usage, 1 any other error.",
                   options(), run};
   return runTool(tool, argc, argv);

@@ -8,10 +8,10 @@
 #include <limits>
 #include <sstream>
 
+#include "base/text/name_list.h"
 #include "collision/checkers/scene_text.h"
 #include "command_line/robot_arguments.h"
 #include "model/description/description_file.h"
-#include "model/text/name_list.h"
 #include "tools/acm_generator.h"
 #include "tools/srdf_writer.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "collision/bounds/problem_maker.h"
-#include "collision/parallel_for.h"
 
 namespace gpu_planning_scene::core
 {

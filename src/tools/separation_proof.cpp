@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "collision/filter/proofs/joint_chain.h"
-#include "collision/filter/proofs/moving_pair.h"
 #include "collision/geometry/cpu_box_pair.h"
+#include "collision/proofs/joint_chain.h"
+#include "collision/proofs/moving_pair.h"
 
 // The joint ranges between two links are a box. A box is proven if the surfaces stay apart while the joints move from
 // its middle to its ends (moving_pair.h), and the links do not collide in the middle: then no surface can be crossed,

@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "collision/exact/cpu_forest.h"
 #include "collision/exact/cpu_shape_pair.h"
 #include "collision/problem/collision_problem.h"
+#include "collision/trees/cpu_forest.h"
 #include "gpu_planning_scene/robot_model.h"
 
 namespace gpu_planning_scene::core

@@ -6,10 +6,10 @@
 
 #include <tinyxml2.h>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
 #include "model/description/proof_limits.h"
 #include "model/robot_text.h"
-#include "model/text/name_list.h"
 #include "tools/chain_groups.h"
 
 namespace gpu_planning_scene::core

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "base/text/parse_number.h"
 #include "gpu_planning_scene/error.h"
 #include "model/files/open_file.h"
-#include "model/text/parse_number.h"
 
 namespace gpu_planning_scene::core
 {

@@ -3,11 +3,11 @@
 #include <set>
 #include <sstream>
 
+#include "base/text/name_list.h"
 #include "command_line/command_line.h"
 #include "command_line/scene_arguments.h"
 #include "model/full_states.h"
 #include "model/joint_limits.h"
-#include "model/text/name_list.h"
 
 namespace gpu_planning_scene::core
 {

@@ -121,7 +121,7 @@ TEST(Benchmark, CountsRightAndWrongAnswers)
     EXPECT_GT(number(row, "states_per_s"), 0.0) << row.at("method");
     EXPECT_GT(number(row, "of_fcl_obbrss"), 0.0) << row.at("method");
     EXPECT_GT(number(row, "of_fcl_ordered"), 0.0) << row.at("method");
-    EXPECT_EQ(row.at("cpu_below").empty(), row.at("method") != "ours_auto") << row.at("method");
+    EXPECT_EQ(row.at("device_share").empty(), row.at("method") != "ours_auto") << row.at("method");
     EXPECT_GT(number(row, "valid_share"), 0.1);
     EXPECT_EQ(number(row, "node_visits_a_state") > 0.0, row.at("method") == "exact_cpu") << row.at("method");
     const bool on_gpu = row.at("method") == "ours_work_queue" || row.at("method") == "ours_breadth_first";

@@ -158,7 +158,7 @@ TEST(Concurrency, AnswersOfTheGpuBelongToTheirRevision)
 {
   const Scenes scenes;
   BatchCheckerOptions options;
-  options.cpu_below = 0;
+  options.device_only = true;
   BatchChecker checker(scenes.of(0), options);
   checkWhileTheSceneChanges(checker, scenes, 20);
 }

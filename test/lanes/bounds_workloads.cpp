@@ -6,7 +6,7 @@
 #include <random>
 #include <sstream>
 
-#include "collision/gpu/gpu_kinematics.h"
+#include "collision/gpu/problem/gpu_kinematics.h"
 #include "gpu/program.h"
 #include "lanes/workloads.h"
 #include "oracle/triangle.h"

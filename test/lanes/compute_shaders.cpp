@@ -2,8 +2,8 @@
 
 #include <cstdlib>
 
-#include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/gpu_pair_checker.h"
+#include "collision/gpu/problem/gpu_kinematics.h"
 #include "gpu/float_arithmetic.h"
 #include "lanes/gl_device.h"
 #include "lanes/proof_shaders.h"

@@ -16,7 +16,7 @@
 
 #include <epoxy/gl.h>
 
-#include "collision/gpu/gpu_kinematics.h"
+#include "collision/gpu/problem/gpu_kinematics.h"
 #include "gpu/egl_context.h"
 #include "gpu/program.h"
 #include "gpu_planning_scene/error.h"

@@ -1,8 +1,8 @@
 #include "lanes/proof_shaders.h"
 
 #include "collision/bounds/problem_maker.h"
+#include "collision/cpu/lanes/lane_scene.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/filter/lanes/lane_scene.h"
 #include "collision/gpu/proofs/gpu_proofs.h"
 #include "collision/gpu/sliding_balls.h"
 

@@ -132,7 +132,7 @@ std::vector<std::string> checkNearContact(const Proven& proven, const std::strin
   options.max_batch = kStates;
   GpuChecker checker(options);
   checker.setProblem(proven.problem, proven.scene->robot);
-  checker.useProofs(std::make_shared<const RobotProofs>(proven.proofs));
+  checker.useProofs(checker.laneSceneOf(std::make_shared<const RobotProofs>(proven.proofs)));
   BatchResult result;
   checker.check(states.data(), kStates, result);
   std::vector<std::string> wrong;

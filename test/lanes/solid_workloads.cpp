@@ -8,9 +8,9 @@
 #include <random>
 #include <sstream>
 
-#include "collision/exact/binned_sah.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/gpu/gpu_checker.h"
+#include "collision/trees/binned_sah.h"
 #include "gpu/program.h"
 #include "lanes/workloads.h"
 #include "oracle/convex.h"

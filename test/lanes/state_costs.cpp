@@ -9,12 +9,15 @@
 #include <iostream>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "collision/bounds/problem_maker.h"
+#include "collision/cpu/lanes/lane_scene.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/filter/lanes/lane_scene.h"
-#include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/gpu_pair_checker.h"
+#include "collision/gpu/problem/gpu_kinematics.h"
+#include "collision/gpu/recorded_verdicts.h"
 #include "gpu_planning_scene/error.h"
 #include "lanes/gl_device.h"
 #include "shader_constants.h"
@@ -54,14 +57,16 @@ void measure(const TestScene& scene, std::size_t states, Traversal traversal)
                               gpu_planning_scene::core::lanes::kDeviceRounding),
                     kinematics);
   ::lanes::WorkCounts counts;
-  Verdicts verdicts;
+  std::vector<std::uint32_t> verdicts;
   for (int batch = 1; batch <= kBatches; ++batch)
   {
     const std::vector<double> values = scene.randomStates(states, static_cast<std::uint64_t>(batch));
     kinematics.setStates(values.data());
     if (batch == kBatches)
       ::lanes::device().countWork(&counts);
-    checker.check(kinematics, states, verdicts, nullptr, [](std::size_t /*begin*/, std::size_t /*count*/) {});
+    RecordedVerdicts recorded(states);
+    checker.check(kinematics, recorded, nullptr);
+    verdicts = std::move(recorded.words);
   }
   ::lanes::device().countWork(nullptr);
   counts.print(std::cout);

@@ -6,10 +6,10 @@
 #include <random>
 #include <stdexcept>
 
-#include "collision/exact/binned_sah.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/gpu/tree_build/gpu_trees.h"
+#include "collision/trees/binned_sah.h"
 #include "gpu/float_arithmetic.h"
 #include "gpu/program.h"
 #include "gpu/readback.h"
@@ -310,14 +310,14 @@ std::vector<std::string> runWorkload(const std::string& name, const std::string&
   const auto task = tasks().find(name);
   if (task == tasks().end())
     throw std::runtime_error("there is no workload " + name);
-  lanes::device().setSeed(seed);
-  lanes::device().clearFaults();
+  ::lanes::device().setSeed(seed);
+  ::lanes::device().clearFaults();
   std::vector<std::string> wrong;
   try
   {
     wrong = task->second(shaders, seed);
   }
-  catch (const lanes::TranslationError&)
+  catch (const ::lanes::TranslationError&)
   {
     throw;
   }
@@ -325,7 +325,7 @@ std::vector<std::string> runWorkload(const std::string& name, const std::string&
   {
     wrong.push_back(std::string("the task ends with an exception: ") + error.what());
   }
-  const auto& faults = lanes::device().faults();
+  const auto& faults = ::lanes::device().faults();
   std::vector<std::string> all(faults.begin(), faults.end());
   all.insert(all.end(), wrong.begin(), wrong.end());
   return all;

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/text/number_text.h"
 #include "model/model_testing.h"
 #include "model/robot_text.h"
-#include "model/text/number_text.h"
 
 namespace gpu_planning_scene::core
 {

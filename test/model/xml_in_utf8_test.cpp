@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/text/utf8.h"
 #include "model/model_testing.h"
-#include "model/text/utf8.h"
 
 namespace gpu_planning_scene::core
 {

@@ -25,7 +25,8 @@ TEST_F(Fault, DiagnosticsReportThatTheCpuHasTakenOver)
     GTEST_SKIP() << why;
   // The node loses its device in one of several hundred calls. With device_losses 1 the CPU takes over at the first
   // loss.
-  const ChildNode node("faulty_node", {"_device:=software", "_cpu_below:=0", "_device_losses:=1"}, GPS_FAULTY_NODE);
+  const ChildNode node("faulty_node", {"_device:=software", "_device_only:=true", "_device_losses:=1"},
+                       GPS_FAULTY_NODE);
   std::mutex mutex;
   DiagnosticStatus latest;
   ros::NodeHandle handle;

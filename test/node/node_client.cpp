@@ -137,6 +137,7 @@ void RunningNode::expectRefusal(const PlanningSceneMessage& change, const std::s
   request.scene = change;
   const auto response = call<ApplyPlanningScene>("apply_planning_scene", request);
   EXPECT_FALSE(response.success);
+  EXPECT_EQ(Status::INVALID_REQUEST, response.status);
   EXPECT_NE(std::string::npos, response.message.find(reason)) << "'" << response.message << "' does not say " << reason;
   EXPECT_EQ(std::string::npos, response.message.find('\n')) << response.message;
   EXPECT_EQ(before, scene());

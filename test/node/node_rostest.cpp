@@ -82,7 +82,7 @@ TEST_F(Node, AnswersFourClientsAtOnceAsTheLibraryDoes)
 {
   BatchCheckerOptions options;
   options.device = parameter("device");
-  const auto checker = openChecker(scene, options);
+  const auto checker = openChecker(scene, options, [](const std::string&) {});
   constexpr int kClients = 4;
   constexpr int kRounds = 5;
   std::atomic<int> failures{0};

@@ -60,7 +60,7 @@ TEST_F(Stopping, AFrameThatIsWaitedForHoldsUpNoEnd)
   EXPECT_TRUE(callPersistently(node.service("apply_planning_scene"), change)) << "no reply";
   ending.join();
   EXPECT_FALSE(change.response.success);
-  EXPECT_NE(std::string::npos, change.response.message.find("shutting down")) << change.response.message;
+  EXPECT_EQ(Status::SHUTTING_DOWN, change.response.status) << change.response.message;
   EXPECT_EQ(0, node.wait(20.0)) << "its exit code";
 }
 }  // namespace

@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
+#include "base/seconds_since.h"
 #include "gpu_planning_scene/cpu_checker.h"
-#include "model/seconds_since.h"
 #include "node/messages/messages.h"
 #include "node/messages/to_messages.h"
 #include "node/persistent_call.h"

@@ -51,10 +51,10 @@ def memory_in_use():
 
 @contextlib.contextmanager
 def many_states():
-    """States of the rail in a file without content. A copy would need 80 GB."""
+    """States of the rail in a file without content. Their check takes seconds."""
     with tempfile.TemporaryFile() as file:
-        file.truncate(10**10 * 8)
-        yield np.memmap(file, dtype=float, mode="r", shape=(10**10, 1))
+        file.truncate(10**8 * 8)
+        yield np.memmap(file, dtype=float, mode="r", shape=(10**8, 1))
 
 
 class StateChecker(Case):
@@ -129,7 +129,7 @@ class StateChecker(Case):
         np.testing.assert_array_equal(expected, colliding[:, 0] < 0)
         self.assertEqual((np.dtype(bool), np.dtype(np.int32)), (valid.dtype, colliding.dtype))
 
-    def test_ctrl_c_ends_a_check_of_many_states_which_are_not_copied(self):
+    def test_ctrl_c_ends_a_check_of_many_states(self):
         checker = gps.StateChecker(gps.PlanningScene(rail()), device="cpu")
         with many_states() as states, self.assertRaises(KeyboardInterrupt), pressed_during_a_call():
             checker.check(states)
@@ -262,7 +262,7 @@ class StateChecker(Case):
             (gps.Error, "sideways", {"traversal": "sideways"}),
             (gps.Error, "tolerance", {"tolerance": -1.0, "device": "cpu"}),
             (TypeError, "whole number", {"max_batch": -1}),
-            (TypeError, "whole number", {"cpu_below": "all"}),
+            (TypeError, "True or False", {"device_only": "all"}),
             (TypeError, "expected a number", {"tolerance": "fine"}),
         ):
             self.assert_one_line(error, pattern, gps.StateChecker, scene, **options)
@@ -279,17 +279,17 @@ class StateChecker(Case):
             # Wrong only for more than one mesh, so the scene without objects is right.
             layout.write_text(text.replace("  place(left, ", "  if (mesh_count == 1u) place(left, "))
             with mock.patch.dict(os.environ, GPU_PLANNING_SCENE_SHADERS=str(shaders)):
-                checker = gps.StateChecker(scene, cpu_below=0)
+                checker = gps.StateChecker(scene, device_only=True)
                 self.assertNotEqual("CPU", checker.device_name)
                 scene.add_object("a", gps.Sphere(0.3), [1, 0, 0])
                 scene.add_object("b", gps.Sphere(0.4), [-1, 0, 0])
+                checker.set_scene(scene)  # the device takes the scene over in the background
+                states = np.linspace(-3.0, 3.0, 100)[:, None]
                 with self.assertWarnsRegex(UserWarning, "^the device has failed, so the CPU checks the states: the GPU "
                                                         "built wrong trees"):
-                    checker.set_scene(scene)
+                    answers = checker.check(states).valid
                 self.assertEqual("CPU", checker.device_name)
-                states = np.linspace(-3.0, 3.0, 100)[:, None]
-                np.testing.assert_array_equal(gps.StateChecker(scene, device="cpu").check(states).valid,
-                                              checker.check(states).valid)
+                np.testing.assert_array_equal(gps.StateChecker(scene, device="cpu").check(states).valid, answers)
                 self.assert_one_line(gps.Error, "^the GPU built wrong trees", gps.StateChecker, scene, device="0")
 
     def test_devices_are_listed_and_can_be_chosen(self):

@@ -79,7 +79,7 @@ class ProofSources(unittest.TestCase):
         self.assertIn("none.h", context.exception.stderr)
 
     def test_the_rooms_that_make_proofs_are_hashed(self):
-        for room in ("exact", "filter/proofs", "geometry", "problem", "../model"):
+        for room in ("trees", "exact", "proofs", "geometry", "problem", "../base", "../model"):
             self.assertIn(f"{room}/*.cpp", patterns())
             self.assertIn(f"{room}/*.h", patterns())
 

@@ -1,4 +1,4 @@
-#include "model/text/parse_number.h"
+#include "base/text/parse_number.h"
 
 #include <cmath>
 #include <limits>

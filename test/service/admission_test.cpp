@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "service/admission.h"
-#include "service/busy.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -63,7 +63,7 @@ TEST(Admission, StopRejectsQueuedRequests)
                               {
                                 const Admission::Pass pass(admission);
                               }
-                              catch (const Error& error)
+                              catch (const ShuttingDown& error)
                               {
                                 return std::string(error.what());
                               }
@@ -71,7 +71,7 @@ TEST(Admission, StopRejectsQueuedRequests)
                             });
   admission.stop();
   EXPECT_EQ("shutting down: the request was not answered", waiting.get());
-  EXPECT_THROW(Admission::Pass late(admission), Error);
+  EXPECT_THROW(Admission::Pass late(admission), ShuttingDown);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -8,9 +8,9 @@
 
 #include "scene/change_testing.h"
 #include "scene/slider_robot.h"
-#include "service/busy.h"
 #include "service/change_queue.h"
 #include "service/scene_store.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -224,7 +224,7 @@ TEST_F(Queue, StopRejectsQueuedChanges)
     {
       std::this_thread::yield();
     }
-    catch (const Error&)
+    catch (const ShuttingDown&)
     {
       stopped = true;
     }

@@ -1,5 +1,7 @@
 #include "service/gated_checker.h"
 
+#include <algorithm>
+
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core
@@ -49,8 +51,7 @@ void GatedChecker::setScene(std::shared_ptr<const PlanningScene> scene)
   scene_ = std::move(scene);
 }
 
-BatchResult GatedChecker::check(const double* states, std::size_t count, const std::string& group,
-                                const JointNeighbourhood*)
+BatchResult GatedChecker::checkSlice(const double* states, std::size_t count, const std::string& group)
 {
   {
     std::unique_lock<std::mutex> lock(gate_.mutex_);
@@ -72,6 +73,23 @@ BatchResult GatedChecker::check(const double* states, std::size_t count, const s
     result.colliding.push_back(free ? kNoPair : BodyPair{{1, 2}});
   }
   return result;
+}
+
+BatchResult GatedChecker::checkBatch(const StateBatch& batch)
+{
+  constexpr std::size_t kSlice = 24;
+  const std::size_t width = scene_->robot->variables().size();
+  BatchResult all;
+  std::size_t done = 0;
+  do
+  {
+    if (done != 0 && batch.go_on && !batch.go_on(done))
+      throw Cancelled();
+    const std::size_t count = std::min(kSlice, batch.count - done);
+    all.append(checkSlice(batch.states + done * width, count, batch.group));
+    done += count;
+  } while (done < batch.count);
+  return all;
 }
 
 SceneReport GatedChecker::report(const std::string& group)

@@ -38,12 +38,14 @@ class GatedChecker : public StateChecker
   GatedChecker(std::shared_ptr<const PlanningScene> scene, Gate& gate);
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override;
-  BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const JointNeighbourhood* around) override;
+  /// In slices of 24 states.
+  BatchResult checkBatch(const StateBatch& batch) override;
   SceneReport report(const std::string& group) override;
   std::string deviceName() const override { return "gate"; }
 
  private:
+  BatchResult checkSlice(const double* states, std::size_t count, const std::string& group);
+
   Gate& gate_;
   std::shared_ptr<const PlanningScene> scene_;
 };

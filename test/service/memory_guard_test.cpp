@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "gpu_planning_scene/error.h"
 #include "service/memory_guard.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -27,7 +27,7 @@ TEST(MemoryGuard, FreedMemoryDoesNotCount)
     pieces.push_back(std::make_unique<char[]>(kPiece));
     std::memset(pieces.back().get(), 1, kPiece);
   }
-  EXPECT_THROW(MemoryGuard(limit).require(), Error);
+  EXPECT_THROW(MemoryGuard(limit).require(), Unavailable);
   pieces.erase(pieces.begin(), pieces.end() - 1);  // the last piece keeps the heap from shrinking by itself
   if (residentMemory() <= limit)
     GTEST_SKIP() << "this system takes back what is freed";

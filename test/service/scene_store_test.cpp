@@ -12,6 +12,7 @@
 #include "model/virtual_joint.h"
 #include "scene/slider_robot.h"
 #include "service/scene_store.h"
+#include "service/service_errors.h"
 #include "support/repetitions.h"
 
 namespace gpu_planning_scene::core
@@ -72,7 +73,7 @@ TEST_F(Store, KeepsReplacedScenesForAWhile)
   EXPECT_EQ(1u, store.at(10, now()).scene->objects.size());
   EXPECT_EQ(2u, store.at(20, now()).scene->objects.size());
   for (const std::uint64_t missing : {5, 15, 25})
-    EXPECT_THROW(store.at(missing, now()), Error) << missing;
+    EXPECT_THROW(store.at(missing, now()), UnknownRevision) << missing;
 
   for (std::uint64_t revision = 21; revision < 150; ++revision)
   {
@@ -80,9 +81,9 @@ TEST_F(Store, KeepsReplacedScenesForAWhile)
     store.at(10, now());
   }
   EXPECT_EQ(10u, store.at(10, now()).scene->revision) << "it was used all the time";
-  EXPECT_THROW(store.at(20, now()), Error) << "64 scenes are kept";
+  EXPECT_THROW(store.at(20, now()), UnknownRevision) << "64 scenes are kept";
   store.forgetReplaced(now());
-  EXPECT_THROW(store.at(10, now()), Error);
+  EXPECT_THROW(store.at(10, now()), UnknownRevision);
   EXPECT_EQ(149u, store.at(149, now()).scene->revision);
 }
 
@@ -93,7 +94,7 @@ TEST_F(Store, LargeReplacedScenesAreFew)
   for (std::uint64_t revision = 1; revision <= 6; ++revision)
     store.follow(change, revision);
   const auto now = std::chrono::steady_clock::now();
-  EXPECT_THROW(store.at(2, now), Error) << "four scenes would have 240,000 shapes";
+  EXPECT_THROW(store.at(2, now), UnknownRevision) << "four scenes would have 240,000 shapes";
   EXPECT_EQ(3u, store.at(3, now).scene->revision);
 }
 

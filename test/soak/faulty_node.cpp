@@ -3,7 +3,8 @@
 #include <atomic>
 #include <random>
 
-#include "collision/checkers/open_checker.h"
+#include "collision/batch/batch_device.h"
+#include "collision/batch/device_parts.h"
 #include "gpu_planning_scene/error.h"
 #include "node/run_node.h"
 
@@ -11,29 +12,41 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// A checker whose device is lost in about one of 100 calls.
-class FaultyChecker : public StateChecker
+/// A device that is lost in about one of 100 calls and parts.
+class FaultyDevice : public BatchDevice
 {
  public:
-  FaultyChecker(std::unique_ptr<StateChecker> checker, unsigned seed) : checker_(std::move(checker)), random_(seed) {}
+  FaultyDevice(std::unique_ptr<BatchDevice> device, unsigned seed) : device_(std::move(device)), random_(seed) {}
 
-  void setScene(std::shared_ptr<const PlanningScene> scene) override
+  void prepare(const DeviceTask& task) override
   {
     fail();
-    checker_->setScene(std::move(scene));
+    device_->prepare(task);
   }
-  BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const JointNeighbourhood* around) override
+  void check(DeviceParts& parts) override
   {
-    fail();
-    BatchResult result = checker_->check(states, count, group, around);
-    fail();
-    return result;
+    FaultyParts faulty(parts, *this);
+    device_->check(faulty);
   }
-  SceneReport report(const std::string& group) override { return checker_->report(group); }
-  std::string deviceName() const override { return checker_->deviceName(); }
+  std::string name() const override { return device_->name(); }
+  bool isSoftware() const override { return device_->isSoftware(); }
+  std::string fault() const override { return device_->fault(); }
 
  private:
+  class FaultyParts : public DeviceParts
+  {
+   public:
+    FaultyParts(const DeviceParts& parts, FaultyDevice& device) : DeviceParts(parts), device_(device) {}
+    StateRange take(std::size_t most) override
+    {
+      device_.fail();
+      return DeviceParts::take(most);
+    }
+
+   private:
+    FaultyDevice& device_;
+  };
+
   void fail()
   {
     constexpr unsigned kCalls = 100;
@@ -41,14 +54,14 @@ class FaultyChecker : public StateChecker
       throw DeviceLost("simulated loss of the device");
   }
 
-  std::unique_ptr<StateChecker> checker_;
+  std::unique_ptr<BatchDevice> device_;
   std::mt19937 random_;
 };
 
-std::unique_ptr<StateChecker> openFaulty(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
+std::unique_ptr<BatchDevice> openFaulty(const BatchCheckerOptions& options)
 {
   static std::atomic<unsigned> seed{0};
-  return std::make_unique<FaultyChecker>(openChecker(std::move(scene), options), ++seed);
+  return std::make_unique<FaultyDevice>(openGpuDevice(options), ++seed);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -25,7 +25,7 @@ StateChecker& checkerOf(const std::string& name, const PlanningScene& scene)
   {
     BatchCheckerOptions options;
     options.traversal = traversalFromName(name);
-    options.cpu_below = 0;
+    options.device_only = true;
     checker = std::make_unique<BatchChecker>(std::move(shared), options);
   }
   return *checker;

@@ -4,11 +4,11 @@
 #include <chrono>
 #include <cstdio>
 
+#include "base/parallel_for.h"
+#include "base/seconds_since.h"
 #include "collision/bounds/problem_maker.h"
-#include "collision/checkers/cpu_scene.h"
-#include "collision/parallel_for.h"
+#include "collision/cpu/cpu_scene.h"
 #include "collision/problem/collision_problem.h"
-#include "model/seconds_since.h"
 #include "tools/progress_bar.h"
 
 namespace gpu_planning_scene::core
@@ -30,7 +30,7 @@ std::unique_ptr<BatchChecker> batchChecker(const TestScene& scene, Traversal tra
   BatchCheckerOptions options;
   options.device = device;
   options.traversal = traversal;
-  options.cpu_below = 0;
+  options.device_only = true;
   return std::make_unique<BatchChecker>(scene.scene, options);
 }
 
@@ -182,11 +182,11 @@ Exactness ExactnessCheck::compare(const std::vector<double>& states, bool cleara
   exactness.states = count;
   const BatchResult on_cpu = cpu_.check(states.data(), count);
   std::vector<BatchResult> results = {on_cpu};
-  const auto add = [&](BatchChecker& checker, const char* name, Exactness::Undecided& undecided)
+  const auto add = [&](BatchChecker& checker, const char* name, std::size_t& undecided)
   {
     checker.check(states.data(), count);  // the first call includes one-time work, which is not timed
     results.push_back(checker.check(states.data(), count));
-    undecided = {results.back().undecided_states, results.back().undecided_seconds, results.back().seconds};
+    undecided = results.back().undecided_states;
     compareSizes(checker, name, states, on_cpu.valid, exactness);
   };
   if (with_proofs_)
@@ -196,8 +196,8 @@ Exactness ExactnessCheck::compare(const std::vector<double>& states, bool cleara
     exactness.proven = provenStates(with_proofs_->report()) - before;
     compareSizes(*with_proofs_, "with proofs", states, on_cpu.valid, exactness);
   }
-  add(*work_queue_, "work_queue", exactness.work_queue);
-  add(*breadth_first_, "breadth_first", exactness.breadth_first);
+  add(*work_queue_, "work_queue", exactness.undecided_work_queue);
+  add(*breadth_first_, "breadth_first", exactness.undecided_breadth_first);
 
   const auto start = std::chrono::steady_clock::now();
   std::vector<Judgement> judgements(count);

@@ -28,15 +28,8 @@ struct Exactness
   std::size_t proven = 0;           ///< states that proofs decided without an exact test
   double oracle_seconds = 0.0;
 
-  /// The undecided states of a BatchChecker with one traversal. All states are checked in one call.
-  struct Undecided
-  {
-    std::size_t states = 0;
-    double seconds = 0.0;  ///< time for the undecided states
-    double total_seconds = 0.0;
-  };
-  Undecided work_queue;
-  Undecided breadth_first;
+  std::size_t undecided_work_queue = 0;  ///< states that the traversal by work queues left undecided
+  std::size_t undecided_breadth_first = 0;
 
   /// Number of free states whose clearance, by the oracle, is below 1e-9, 1e-8, ... 1e-3 m, and above. Each state
   /// counts once. All entries are 0 if no clearances were requested.

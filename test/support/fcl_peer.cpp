@@ -8,8 +8,8 @@
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
+#include "base/seconds_since.h"
 #include "gpu_planning_scene/error.h"
-#include "model/seconds_since.h"
 #include "support/fcl_broad_phase.h"
 #include "support/inside.h"
 #include "support/learned_order.h"

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "collision/bounds/problem_maker.h"
-#include "collision/exact/cpu_forest.h"
+#include "collision/trees/cpu_forest.h"
 
 namespace gpu_planning_scene::core
 {

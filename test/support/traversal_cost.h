@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision/exact/forest.h"
+#include "collision/trees/forest.h"
 #include "gpu_planning_scene/shapes.h"
 
 namespace gpu_planning_scene::core

@@ -35,9 +35,10 @@ class ShardedChecker
 
   /// The answer of ~check_states. If the request names no revision, it is the newest one of the first node that
   /// answers: that of the leader, while it runs. `success` is false if all nodes refuse the request, or if no node has
-  /// answered for `patience` seconds. `seconds` is the sum of the parts. These requests go to one node as a whole: at
-  /// most 4096 states; with a scene_diff; with a joint for which neither the request nor the first node gives a value,
-  /// for example a base whose pose only tf knows.
+  /// answered for `patience` seconds. `status` then has the reason of a node that refuses the request, or the last
+  /// reason; UNAVAILABLE if a node has not replied. `seconds` is the sum of the parts. These requests go to one node as
+  /// a whole: at most 4096 states; with a scene_diff; with a joint for which neither the request nor the first node
+  /// gives a value, for example a base whose pose only tf knows.
   Response check(const Request& request);
 
  private:

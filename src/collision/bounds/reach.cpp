@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math_constants.h"
 #include "collision/geometry/median_split.h"
 #include "collision/geometry/shape_bounds.h"
 #include "model/joint_limits.h"
-#include "model/math_constants.h"
 #include "model/rigid_pose.h"
 
 // Covers each shape with balls, and sweeps the balls through the joints from the link up to the planning frame. After

@@ -3,10 +3,10 @@
 #include <chrono>
 #include <mutex>
 
+#include "base/seconds_since.h"
 #include "collision/gpu/gpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "model/rigid_pose.h"
-#include "model/seconds_since.h"
 
 namespace gpu_planning_scene::core
 {

@@ -1,81 +1,69 @@
 #include "collision/checkers/open_checker.h"
 
+#include <algorithm>
 #include <utility>
-#include <vector>
 
-#include "collision/checkers/device_group.h"
-#include "collision/checkers/fallback_checker.h"
+#include "collision/batch/scheduler.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/device.h"
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core
 {
-namespace
+std::vector<std::string> devicesOf(const std::string& selection)
 {
-bool hasDevice()
-{
-  try
+  std::vector<std::string> devices;
+  if (selection == "all")
   {
-    return !listDevices().empty();
+    for (const Device& device : listDevices())
+      if (!device.software)
+        devices.push_back(std::to_string(device.index));
+    return devices.empty() ? std::vector<std::string>{"auto"} : devices;
   }
-  catch (const Error&)
+  for (std::size_t begin = 0; begin <= selection.size();)
   {
-    return false;  // a library of EGL or OpenGL is missing
+    const std::size_t end = std::min(selection.find('+', begin), selection.size());
+    devices.push_back(selection.substr(begin, end - begin));
+    if (devices.back().empty())
+      throw Error("the device '" + selection + "' has an empty part; give names or numbers with + between them: 0+1");
+    begin = end + 1;
   }
+  return devices;
 }
 
-std::unique_ptr<StateChecker> openOne(std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions& options)
+std::unique_ptr<Scheduler> schedulerOf(const BatchCheckerOptions& options, const OpenDevice& open)
+{
+  if (options.max_batch == 0)
+    throw Error("max_batch is 0; it must be at least 1");
+  std::vector<std::unique_ptr<DeviceWorker>> devices;
+  for (const std::string& device : devicesOf(options.device))
+  {
+    BatchCheckerOptions its_options = options;
+    its_options.device = device;
+    devices.push_back(
+        std::make_unique<DeviceWorker>([open, its_options] { return open(its_options); }, options.limits));
+  }
+  return std::make_unique<Scheduler>(options, std::move(devices), options.device_only);
+}
+
+std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> scene,
+                                          const BatchCheckerOptions& options,
+                                          const std::function<void(const std::string&)>& warn)
 {
   if (options.device == "cpu")
     return std::make_unique<CpuChecker>(std::move(scene), options);
   try
   {
-    return std::make_unique<BatchChecker>(std::move(scene), options);
+    return std::make_unique<BatchChecker>(scene, options);
   }
   catch (const Error& error)
   {
-    if (hasDevice())
+    if (options.max_batch == 0)
       throw;
-    throw Error(std::string(error.what()) + "; or choose the device 'cpu', which needs no GPU");
-  }
-}
-}  // namespace
-
-std::unique_ptr<StateChecker> openChecker(std::shared_ptr<const PlanningScene> scene,
-                                          const BatchCheckerOptions& options)
-{
-  const std::vector<std::string> devices = devicesOf(options.device);
-  const auto open = [&options](std::shared_ptr<const PlanningScene> its_scene, const std::string& device)
-  {
-    BatchCheckerOptions its_options = options;
-    its_options.device = device;
-    return openOne(std::move(its_scene), its_options);
-  };
-  if (devices.size() == 1)
-    return open(std::move(scene), devices.front());
-  return std::make_unique<DeviceGroup>(scene, devices, open);
-}
-
-std::unique_ptr<StateChecker> openWithFallback(std::shared_ptr<const PlanningScene> scene,
-                                               const BatchCheckerOptions& options,
-                                               std::function<void(const std::string&)> warn)
-{
-  const bool needs_no_device = options.device == "auto" || options.device == "all";
-  if (!needs_no_device || options.max_batch == 0)  // openChecker refuses this option, which is no fault of a device
-    return openChecker(std::move(scene), options);
-  try
-  {
-    const auto open = [options](std::shared_ptr<const PlanningScene> its_scene)
-    { return openChecker(std::move(its_scene), options); };
-    return std::make_unique<FallbackChecker>(scene, open, options, warn);
-  }
-  catch (const Error& error)
-  {
-    if (!hasDevice())
-      throw;
-    auto checker = std::make_unique<CpuChecker>(std::move(scene), options);  // throws Error if the scene is invalid
-    warn(std::string("the device cannot be used, so the CPU checks the states: ") + error.what());
+    if (options.device != "auto" && options.device != "all")
+      throw Error(std::string(error.what()) + "; or choose the device 'cpu', which needs no GPU");
+    auto checker = std::make_unique<CpuChecker>(std::move(scene), options);  // throws if the scene is not valid
+    warn(std::string("no device can be used, so the CPU checks the states: ") + error.what());
     return checker;
   }
 }

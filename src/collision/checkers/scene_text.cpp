@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <limits>
 
-#include "collision/filter/proofs/joint_chain.h"
+#include "base/text/one_line.h"
+#include "collision/proofs/joint_chain.h"
 #include "gpu_planning_scene/body_parts.h"
 #include "model/robot_text.h"
-#include "model/text/one_line.h"
 #include "scene/body_link.h"
 
 namespace gpu_planning_scene::core
@@ -84,12 +84,6 @@ std::string remedyOfRigid(const PlanningScene& scene, const std::vector<BodyPair
   return "";
 }
 
-std::string batchesText(std::size_t cpu_below)
-{
-  return cpu_below == std::numeric_limits<std::size_t>::max() ? "batches of any size"
-                                                              : "batches of fewer than " + counted(cpu_below, "state");
-}
-
 /// "1000, 12.3 % by joint tables (15 ns), ...": the number of states, their shares, and the time of each stage per
 /// state.
 std::string decidedText(const std::vector<DecidedStates>& decided)
@@ -157,11 +151,8 @@ std::vector<std::string> describeScene(const PlanningScene& scene, const SceneRe
   if (!report.colliding_in_samples.empty())
     lines.push_back("in collision in each of " + std::to_string(kSampledStates) +
                     " random states: " + pairList(scene, report.colliding_in_samples));
-  if (report.cpu_below && *report.cpu_below != 0)
-    lines.push_back("checked on the CPU: " + batchesText(*report.cpu_below));
   if (!report.decided.empty())
-    lines.push_back(std::string("states decided on the CPU") +
-                    (report.cpu_below ? ", also in measurements of its speed: " : ": ") + decidedText(report.decided));
+    lines.push_back("states decided on the CPU: " + decidedText(report.decided));
   for (const std::string& line : describeOpenParts(scene))
     lines.push_back(line);
   std::transform(lines.begin(), lines.end(), lines.begin(), onOneLine);

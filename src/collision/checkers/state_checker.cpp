@@ -9,6 +9,6 @@ void BatchResult::append(const BatchResult& next)
   revision = next.revision;
   seconds += next.seconds;
   undecided_states += next.undecided_states;
-  undecided_seconds += next.undecided_seconds;
+  device_states += next.device_states;
 }
 }  // namespace gpu_planning_scene::core

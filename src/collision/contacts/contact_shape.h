@@ -4,8 +4,8 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/exact/cpu_tree.h"
 #include "collision/geometry/convex_separation.h"
+#include "collision/trees/cpu_tree.h"
 
 namespace gpu_planning_scene::core
 {

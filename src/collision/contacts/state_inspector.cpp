@@ -6,13 +6,13 @@
 #include <mutex>
 #include <utility>
 
+#include "base/parallel_for.h"
 #include "collision/bounds/problem_maker.h"
 #include "collision/contacts/body_contacts.h"
 #include "collision/contacts/body_pairs.h"
 #include "collision/contacts/clearance_search.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/parallel_for.h"
 #include "collision/problem/state_validation.h"
 
 // The exact checker finds the colliding pairs of instances. They are grouped by their bodies, because a contact

@@ -7,9 +7,9 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/exact/cpu_forest.h"
-#include "collision/exact/wide_tests.h"
 #include "collision/geometry/convex_pair.h"
+#include "collision/trees/cpu_forest.h"
+#include "collision/trees/wide_tests.h"
 
 namespace gpu_planning_scene::core
 {

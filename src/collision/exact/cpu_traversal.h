@@ -7,11 +7,11 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/exact/cpu_forest.h"
 #include "collision/exact/cpu_shape_pair.h"
-#include "collision/exact/forest.h"
-#include "collision/exact/object_tree.h"
 #include "collision/problem/collision_problem.h"
+#include "collision/trees/cpu_forest.h"
+#include "collision/trees/forest.h"
+#include "collision/trees/object_tree.h"
 
 namespace gpu_planning_scene::core
 {

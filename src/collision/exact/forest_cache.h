@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "collision/exact/cpu_forest.h"
 #include "collision/exact/cpu_traversal.h"
-#include "collision/exact/object_tree.h"
 #include "collision/problem/collision_problem.h"
+#include "collision/trees/cpu_forest.h"
+#include "collision/trees/object_tree.h"
 
 namespace gpu_planning_scene::core
 {

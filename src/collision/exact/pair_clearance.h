@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "collision/exact/cpu_shape_pair.h"
-#include "collision/exact/cpu_tree.h"
+#include "collision/trees/cpu_tree.h"
 
 namespace gpu_planning_scene::core
 {

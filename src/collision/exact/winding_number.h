@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/exact/cpu_forest.h"
+#include "collision/trees/cpu_forest.h"
 
 namespace gpu_planning_scene::core
 {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/math_constants.h"
 #include "collision/geometry/simplex.h"
-#include "model/math_constants.h"
 
 // Two methods. The algorithm of Gilbert, Johnson and Keerthi (1988), in double, proves the answer for nearly all pairs.
 // If the distance is within rounding of the required distance, the direction between the nearest points is mostly

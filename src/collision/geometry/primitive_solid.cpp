@@ -5,9 +5,9 @@
 #include <limits>
 #include <memory>
 
+#include "base/math_constants.h"
 #include "collision/geometry/convex_pair.h"
 #include "collision/geometry/precise_distance.h"
-#include "model/math_constants.h"
 
 // Spheres are decided by the distance of a point from a shape (Ericson, "Real-Time Collision Detection", 2005, 5.1).
 // The other primitives have support functions and are decided by convexWithin (Gilbert, Johnson and Keerthi 1988).

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/math_constants.h"
 #include "collision/geometry/exact_orientation.h"
 #include "collision/geometry/precise_distance.h"
-#include "model/math_constants.h"
 
 // Three stages, each slower and more certain than the one before: separating axes and the signs of volumes in double
 // (Devillers and Guigue 2002); nearest points in double; exact signs and distances in quadruple precision.

@@ -1,27 +1,22 @@
 #include "collision/gpu/gpu_checker.h"
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 #include <future>
-#include <optional>
 #include <utility>
 
-#include "collision/filter/lanes/lane_checker.h"
-#include "collision/filter/lanes/lane_scene.h"
-#include "collision/parallel_for.h"
-#include "collision/rows_without.h"
+#include "base/parallel_for.h"
+#include "collision/cpu/lanes/lane_checker.h"
+#include "collision/problem/rows_without.h"
 #include "gpu/float_arithmetic.h"
 #include "gpu/gl_check.h"
 #include "gpu_planning_scene/error.h"
-#include "model/finally.h"
-#include "model/seconds_since.h"
 #include "shader_constants.h"
 
-// Runs all GL work on the GL thread of this object. The GPU reports each state as a hit, as free or as undecided; the
-// calling thread then decides the undecided states with the exact checker, on all cores. Inexact arithmetic with error
-// bounds in front of exact arithmetic is the idea of S. Fortune, C. J. Van Wyk: Efficient exact arithmetic for
-// computational geometry. SoCG 1993.
+// Runs all GL work on the GL thread of this object. The GPU reports each state as a hit, as free or as undecided.
+// Others then decide the undecided states: the cores that work on the batch, or without a batch this object, on all
+// cores. Inexact arithmetic with error bounds in front of exact arithmetic is the idea of S. Fortune, C. J. Van Wyk:
+// Efficient exact arithmetic for computational geometry. SoCG 1993.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -77,8 +72,9 @@ void GpuChecker::release()
           pairs_.reset();
         });
   }
-  catch (const DeviceLost&)  // a lost context throws after each job; there is nothing left to release
+  catch (const std::exception&)
   {
+    // A lost context throws after each job; there is nothing left to release.
   }
 }
 
@@ -155,21 +151,24 @@ void GpuChecker::selectPairs(std::shared_ptr<const CollisionProblem> problem)
   on_cpu_.reset();
 }
 
-void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
+std::shared_ptr<const LaneScene> GpuChecker::laneSceneOf(const std::shared_ptr<const RobotProofs>& proofs)
 {
-  if (!proofs || proofs == proofs_)
+  makeTraversal();
+  return std::make_shared<const LaneScene>(*robot_, *problem_, *trees_->forest(), proofs, lanes::kDeviceRounding);
+}
+
+void GpuChecker::useProofs(const std::shared_ptr<const LaneScene>& scene)
+{
+  if (!scene || scene == proofs_)
     return;
   requireUsableScene();
-  proofs_ = proofs;
+  proofs_ = scene;
   // The device proves verdicts only if it places the links itself.
-  if (!kinematics_ || !kinematics_fault_.empty() || !LaneChecker::suits(*problem_) || !suitsShader(*problem_))
+  if (!placesLinks() || !LaneChecker::suits(*problem_) || !suitsShader(*problem_))
     return;
-  if (!on_cpu_)
-    on_cpu_ = trees_->traversalOf(problem_);
-  const LaneScene scene(*robot_, *problem_, *trees_->forest(), proofs, lanes::kDeviceRounding);
   try
   {
-    startOnDevice([&] { pairs_->useProofs(scene, *kinematics_); }).get();
+    startOnDevice([&] { pairs_->useProofs(*scene, *kinematics_); }).get();
   }
   catch (const DeviceLost&)
   {
@@ -179,12 +178,6 @@ void GpuChecker::useProofs(const std::shared_ptr<const RobotProofs>& proofs)
   {
     proofs_fault_ = std::string("proofs on the device: ") + error.what() + "; trees decide all pairs";
   }
-}
-
-void GpuChecker::prepareMargins()
-{
-  requireUsableScene();
-  startOnDevice([&] { pairs_->prepareMargins(); }).get();
 }
 
 std::future<void> GpuChecker::startOnDevice(std::function<void()> job)
@@ -210,100 +203,125 @@ void GpuChecker::requireUsableScene() const
     throw DeviceLost("the GPU failed while its scene was being changed and holds no usable scene");
 }
 
-std::vector<double> GpuChecker::largestValues() const
+void GpuChecker::check(const double* states, PartSource& parts, const Margins* margins)
 {
-  return kinematics_ && kinematics_fault_.empty() ? kinematics_->largestValues() : std::vector<double>();
-}
-
-void GpuChecker::check(const double* states, std::size_t count, BatchResult& result, const Margins* margins,
-                       bool within_largest)
-{
-  const RobotModel& robot = *robot_;
-  const std::size_t width = robot.variables().size();
-  const LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* poses)
-  { robot.linkPoses(states + row * width, poses); };
-  const bool on_gpu =
-      kinematics_ != nullptr && kinematics_fault_.empty() &&
-      (within_largest ||
-       rowsWithout(count, [&](std::size_t row) { return kinematics_->canPlace(states + row * width); }).empty());
-  const std::size_t links = robot.links().size();
-  if (on_gpu)
+  if (placesLinks())
   {
     kinematics_->setStates(states);
-    return check(*kinematics_, count, links, link_poses, margins, result);
+    return check(*kinematics_, parts, margins);
+  }
+  const LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* poses)
+  { robot_->linkPoses(states + row * robot_->variables().size(), poses); };
+  UploadedPoses poses(*problem_, robot_->links().size(), link_poses);
+  check(poses, parts, margins);
+}
+
+void GpuChecker::check(PoseSource& source, PartSource& parts, const Margins* margins)
+{
+  requireUsableScene();
+  startOnDevice([&] { pairs_->check(source, parts, margins); }).get();
+}
+
+BodyPair GpuChecker::bodiesOf(std::uint32_t hit) const
+{
+  const auto [a, b] = GpuPairChecker::pairOf(hit);
+  // Ascending order: the body index of an attached object is larger than the index of an object that it hits.
+  const std::int32_t first = problem_->robot[a].body;
+  const std::int32_t second = bodyOf(*problem_, b);
+  return {std::min(first, second), std::max(first, second)};
+}
+
+void GpuChecker::check(const double* states, std::size_t count, BatchResult& result, const Margins* margins)
+{
+  const std::size_t width = robot_->variables().size();
+  const LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* poses)
+  { robot_->linkPoses(states + row * width, poses); };
+  const std::size_t links = robot_->links().size();
+  const PlaceableStates placeable(*robot_);
+  if (placesLinks() &&
+      rowsWithout(count, [&](std::size_t row) { return placeable.contains(states + row * width); }).empty())
+  {
+    kinematics_->setStates(states);
+    return checkAll(*kinematics_, count, links, link_poses, margins, result);
   }
   UploadedPoses poses(*problem_, links, link_poses);
-  check(poses, count, links, link_poses, margins, result);
+  checkAll(poses, count, links, link_poses, margins, result);
 }
 
 void GpuChecker::checkPoses(std::size_t count, std::size_t link_count, const LinkPoses& link_poses, BatchResult& result)
 {
   UploadedPoses poses(*problem_, link_count, link_poses);
-  check(poses, count, link_count, link_poses, nullptr, result);
+  checkAll(poses, count, link_count, link_poses, nullptr, result);
 }
 
-void GpuChecker::check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
-                       const Margins* margins, BatchResult& result)
+namespace
 {
-  result.valid.assign(count, 1);
-  result.colliding.assign(count, kNoPair);
-  result.undecided_states = 0;
-  result.undecided_seconds = 0.0;
-  requireUsableScene();
-  PartQueue parts;
-  std::size_t settled = 0;
-  std::future<void> on_device = startOnDevice(
-      [&]
-      {
-        const Finally end([&parts] { parts.end(); });
-        pairs_->check(source, count, verdicts_, margins,
-                      [&parts](std::size_t begin, std::size_t states) {
-                        parts.add({begin, states});
-                      });
-      });
+/// All states of a result, one part after the other.
+class AllStates : public PartSource
+{
+ public:
+  AllStates(const GpuChecker& checker, std::size_t count, BatchResult& result)
+    : checker_(checker), count_(count), result_(result)
   {
-    const Finally wait([&on_device] { on_device.wait(); });
-    while (const std::optional<StateRange> part = parts.next())
-    {
-      settle(*part, link_count, link_poses, margins, result);
-      settled += part->count;
-    }
+    result_.valid.assign(count, 1);
+    result_.colliding.assign(count, kNoPair);
   }
-  on_device.get();
-  if (settled != count)  // the others would stay free
-    throw DeviceLost("the device has returned " + std::to_string(settled) + " of " + std::to_string(count) + " states");
+
+  StateRange take(std::size_t most) override
+  {
+    const StateRange next{taken_, std::min(most, count_ - taken_)};
+    taken_ = next.end();
+    return next;
+  }
+  void bring(const StateRange& states, const std::uint32_t* verdicts, const GpuWork& /*work*/) override
+  {
+    brought_ += states.count;
+    for (std::size_t i = 0; i < states.count; ++i)
+      if (isHit(verdicts[i]))
+      {
+        result_.valid[states.begin + i] = 0;
+        result_.colliding[states.begin + i] = checker_.bodiesOf(verdicts[i]);
+      }
+      else if (!isFree(verdicts[i]))
+        undecided_.push_back(states.begin + i);
+  }
+
+  std::size_t brought() const { return brought_; }
+  const std::vector<std::size_t>& undecided() const { return undecided_; }
+
+ private:
+  const GpuChecker& checker_;
+  const std::size_t count_;
+  BatchResult& result_;
+  std::size_t taken_ = 0;
+  std::size_t brought_ = 0;
+  std::vector<std::size_t> undecided_;
+};
+}  // namespace
+
+void GpuChecker::checkAll(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
+                          const Margins* margins, BatchResult& result)
+{
+  AllStates states(*this, count, result);
+  check(source, states, margins);
+  if (states.brought() != count)  // the others would stay free
+    throw DeviceLost("the device has returned " + std::to_string(states.brought()) + " of " + std::to_string(count) +
+                     " states");
+  result.undecided_states = states.undecided().size();
+  if (!states.undecided().empty())
+    settleOnCpu(states.undecided(), link_count, link_poses, margins, result);
 }
 
-/// Writes the verdicts of a part into the result, while the device works on the next part.
-void GpuChecker::settle(const StateRange& part, std::size_t link_count, const LinkPoses& link_poses,
-                        const Margins* margins, BatchResult& result)
+void GpuChecker::makeTraversal()
 {
-  const std::vector<ShapeInstance>& robot = problem_->robot;
-  std::vector<std::size_t> undecided;
-  for (std::size_t i = part.begin; i < part.begin + part.count; ++i)
-    if (isHit(verdicts_[i]))
-    {
-      const auto [a, b] = GpuPairChecker::pairOf(verdicts_[i]);
-      result.valid[i] = 0;
-      // Ascending order: the body index of an attached object is larger than the index of an object that it hits.
-      const std::int32_t first = robot[a].body;
-      const std::int32_t second = bodyOf(*problem_, b);
-      result.colliding[i] = {std::min(first, second), std::max(first, second)};
-    }
-    else if (verdicts_[i] == VERDICT_UNDECIDED)
-      undecided.push_back(i);
-  result.undecided_states += undecided.size();
-  const auto start = std::chrono::steady_clock::now();
-  if (!undecided.empty())
-    settleOnCpu(undecided, link_count, link_poses, margins, result);
-  result.undecided_seconds += secondsSince(start);
+  if (!on_cpu_)
+    on_cpu_ = trees_->traversalOf(problem_);
 }
 
 void GpuChecker::settleOnCpu(const std::vector<std::size_t>& rows, std::size_t link_count, const LinkPoses& link_poses,
                              const Margins* margins, BatchResult& result)
 {
-  if (!on_cpu_)
-    on_cpu_ = trees_->traversalOf(problem_);
+  makeTraversal();
   parallelFor(rows.size(), 1,
               [&, scratch = CpuTraversal::Scratch(), links = std::vector<Eigen::Isometry3d>(link_count)](
                   std::size_t from, std::size_t to) mutable

@@ -10,28 +10,30 @@
 #include <Eigen/Geometry>
 
 #include "collision/bounds/displacement_bounds.h"
+#include "collision/cpu/lanes/lane_scene.h"
 #include "collision/exact/cpu_traversal.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/filter/proofs/robot_proofs.h"
-#include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/gpu_pair_checker.h"
-#include "collision/gpu/part_queue.h"
-#include "collision/gpu/uploaded_poses.h"
+#include "collision/gpu/part_source.h"
+#include "collision/gpu/problem/gpu_kinematics.h"
+#include "collision/gpu/problem/placeable_states.h"
+#include "collision/gpu/problem/uploaded_poses.h"
 #include "collision/problem/collision_problem.h"
+#include "collision/proofs/robot_proofs.h"
 #include "gpu/gl_thread.h"
 #include "gpu_planning_scene/batch_checker_options.h"
 
 namespace gpu_planning_scene::core
 {
-/// Checks a collision problem on a GPU. The states that float32 leaves undecided are decided on the CPU, by a traversal
-/// of the same problem in double precision. One caller at a time, on any thread. Each method throws DeviceLost
-/// if the device fails or its context is lost; the object is then unusable.
+/// Checks a collision problem on a GPU. float32 leaves some states undecided. One caller at a time, on any thread. Each
+/// method throws DeviceLost if the device fails or its context is lost; the object is then unusable.
 class GpuChecker
 {
  public:
   /// Throws Error if there is no usable device, if a shader does not compile, or if max_batch is 0. `trees`: the CPU's
-  /// trees for undecided states; other users may share them, one at a time. Null: its own trees.
-  GpuChecker(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees = nullptr);
+  /// trees for the undecided states of `check` with a result and of `checkPoses`; other users may share them, one at a
+  /// time. Null: its own trees.
+  explicit GpuChecker(const BatchCheckerOptions& options, std::shared_ptr<ForestCache> trees = nullptr);
   ~GpuChecker();
 
   /// Builds the trees. `robot`: the robot whose states are checked; null if the problem has no robot model. Throws
@@ -41,29 +43,30 @@ class GpuChecker
   /// Restricts the checked pairs to the pairs of `problem`, which must have the same trees and instances.
   void selectPairs(std::shared_ptr<const CollisionProblem> problem);
 
-  /// From now on, these proofs decide pairs before trees do. They must be those of the selected problem's robot. Null,
-  /// or the proofs of the last call: changes nothing. setProblem forgets them. If the device does not take them,
-  /// `fault` says so, and trees decide all pairs.
-  void useProofs(const std::shared_ptr<const RobotProofs>& proofs);
+  /// From now on, proofs decide pairs before trees do. `scene`: of the selected problem and its robot, made with
+  /// lanes::kDeviceRounding. Null, or the scene of the last call: changes nothing. setProblem and selectPairs forget
+  /// it. If the device does not take it, `fault` says so, and trees decide all pairs.
+  void useProofs(const std::shared_ptr<const LaneScene>& scene);
 
-  /// Compiles the programs for batches with margins, if this has not been done, so that no check has to.
-  void prepareMargins();
+  /// Makes the scene for useProofs from the robot's proofs.
+  std::shared_ptr<const LaneScene> laneSceneOf(const std::shared_ptr<const RobotProofs>& proofs);
 
-  /// One value per variable. The device can compute the link poses of a state if no variable exceeds its value in
-  /// magnitude. Empty if this test does not suffice for the robot, or if the CPU computes the poses.
-  std::vector<double> largestValues() const;
+  /// Checks the states of `parts` until there is none, and brings their verdicts. `states`: rows of the robot's
+  /// variables, each in PlaceableStates. `margins`: for these states and the selected pairs; null: none.
+  void check(const double* states, PartSource& parts, const Margins* margins = nullptr);
 
-  /// Checks `count` states (rows of the robot's variables). Fills the result except for revision and seconds.
-  /// `margins`: for these states and the selected pairs; null: none. `within_largest`: no value is beyond
-  /// largestValues(), so the states need not be tested.
-  void check(const double* states, std::size_t count, BatchResult& result, const Margins* margins = nullptr,
-             bool within_largest = false);
+  /// The bodies of a verdict that is a hit, in ascending order.
+  BodyPair bodiesOf(std::uint32_t hit) const;
+
+  /// Checks `count` states, whatever their values are, and decides undecided ones on the CPU. Fills the result except
+  /// for revision and seconds.
+  void check(const double* states, std::size_t count, BatchResult& result, const Margins* margins = nullptr);
 
   /// The same for link poses that the caller computes.
   void checkPoses(std::size_t count, std::size_t link_count, const UploadedPoses::LinkPoses& link_poses,
                   BatchResult& result);
 
-  /// Work of the last batch.
+  /// Work of the last check.
   const GpuWork& lastWork() const { return pairs_->lastWork(); }
 
   const Device& device() const { return gl_.device(); }
@@ -75,17 +78,18 @@ class GpuChecker
   using LinkPoses = UploadedPoses::LinkPoses;
   void release();
   void restore();
+  void makeTraversal();
   void requireUsableScene() const;
   /// Starts `job` on the thread of the OpenGL context. If the device runs out of memory, the scene counts as unusable
   /// and the future throws DeviceLost.
   std::future<void> startOnDevice(std::function<void()> job);
   void apply(const CollisionProblem& problem, const std::shared_ptr<const RobotModel>& robot);
-  void check(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
-             const Margins* margins, BatchResult& result);
-  void settle(const StateRange& part, std::size_t link_count, const LinkPoses& link_poses, const Margins* margins,
-              BatchResult& result);
+  void check(PoseSource& source, PartSource& parts, const Margins* margins);
+  void checkAll(PoseSource& source, std::size_t count, std::size_t link_count, const LinkPoses& link_poses,
+                const Margins* margins, BatchResult& result);
   void settleOnCpu(const std::vector<std::size_t>& rows, std::size_t link_count, const LinkPoses& link_poses,
                    const Margins* margins, BatchResult& result);
+  bool placesLinks() const { return kinematics_ != nullptr && kinematics_fault_.empty(); }
 
   std::string shader_folder_;
   GlThread gl_;
@@ -97,11 +101,10 @@ class GpuChecker
   std::string kinematics_fault_;
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;
-  std::shared_ptr<const RobotProofs> proofs_;  // of the last useProofs
+  std::shared_ptr<const LaneScene> proofs_;  // of the last useProofs
   std::string proofs_fault_;
   bool usable_ = false;  // the device holds exactly `problem_`
   std::shared_ptr<ForestCache> trees_;
-  Verdicts verdicts_;  // of the last batch; kept, because new memory takes longer than the verdicts
   std::unique_ptr<const CpuTraversal> on_cpu_;  // for the selected pairs; built when a state is undecided
 };
 }  // namespace gpu_planning_scene::core

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/part_limits.h"
+#include "collision/gpu/problem/gpu_kinematics.h"
 #include "collision/gpu/proofs/frame_check.h"
 #include "gpu/float_arithmetic.h"
 #include "gpu/gl_check.h"
@@ -19,7 +19,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// The order of queries is learned from at most this many states of a batch.
+/// The order of queries is learned from at most this many states of a part.
 constexpr std::size_t kMaxCounted = 16384;
 
 constexpr std::size_t kFirstPart = 2048;
@@ -164,58 +164,72 @@ void GpuPairChecker::prepareTraversal(bool padded)
       traversal_->prepare(task(solids, padded));
 }
 
-void GpuPairChecker::check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins,
-                           const Done& done)
+std::size_t GpuPairChecker::largestPart(const Work& work) const
 {
-  verdicts.assign(count, VERDICT_FREE);
+  const std::size_t most = std::min(work.size.size(), work.poses.maxStates());
+  return provesFirst(work) ? std::min(most, proofs_.maxStates()) : most;
+}
+
+void GpuPairChecker::check(PoseSource& source, PartSource& parts, const Margins* margins)
+{
   work_ = {};
   if (scene_.robotCount() == 0)
-    return done(0, count);
-  const Batch batch{source, margins, margins ? parts_with_margins_ : plain_parts_, verdicts, done};
+    return bringFree(parts);
+  const Work work{source, parts, margins, margins ? parts_with_margins_ : plain_parts_};
   if (margins)
     prepareMargins();
   programs_ = margins ? &*with_margins_ : &plain_;
   using Clock = std::chrono::steady_clock;
   Clock::time_point last = Clock::now();
   Part* running = nullptr;
-  std::size_t begin = 0;
-  for (std::size_t i = 0; running || begin < count; ++i)
+  bool is_last = false;
+  for (std::size_t i = 0; running || !is_last; ++i)
   {
     Part* next = nullptr;
-    if (begin < count)
+    if (!is_last)
     {
       next = &parts_[i % 2];
-      next->begin = begin;
-      next->count = std::min({batch.parts.size(), source.maxStates(), count - begin});
-      if (provesFirst(batch))
-        next->count = std::min(next->count, proofs_.maxStates());
-      begin += next->count;
-      start(batch, *next);
+      next->states = parts.take(largestPart(work));
+      is_last = next->states.count == 0;
     }
+    if (is_last)
+      next = nullptr;
+    else
+      start(work, *next);
     if (running)
     {
-      const std::size_t states = running->count;
-      finish(batch, *running);
+      const std::size_t states = running->states.count;
+      finish(work, *running);
       const Clock::time_point now = Clock::now();
-      batch.parts.took(states, std::chrono::duration<double>(now - last).count());
+      work.size.took(states, std::chrono::duration<double>(now - last).count());
       last = now;
     }
     running = next;
   }
-  learnOrder(verdicts);
+  if (order_.endBatch(work_.states))
+    writeQueries();
 }
 
-void GpuPairChecker::learnOrder(const Verdicts& verdicts)
+/// A robot without shapes hits nothing.
+void GpuPairChecker::bringFree(PartSource& parts) const
 {
-  const std::size_t stride = 1 + verdicts.size() / kMaxCounted;
-  for (std::size_t i = 0; i < verdicts.size(); i += stride)
+  std::vector<std::uint32_t> verdicts;
+  for (StateRange states = parts.take(max_states_); states.count != 0; states = parts.take(max_states_))
+  {
+    verdicts.assign(states.count, VERDICT_FREE);
+    parts.bring(states, verdicts.data(), {});
+  }
+}
+
+void GpuPairChecker::learnOrder(const std::uint32_t* verdicts, std::size_t count)
+{
+  const std::size_t stride = 1 + count / kMaxCounted;
+  for (std::size_t i = 0; i < count; i += stride)
     if (isHit(verdicts[i]))
     {
       const auto [robot, other] = pairOf(verdicts[i]);
       order_.count(robot, other);
     }
-  if (order_.endBatch(verdicts.size()))
-    writeQueries();
 }
 
 void GpuPairChecker::writeQueries()
@@ -229,70 +243,73 @@ void GpuPairChecker::writeQueries()
   }
 }
 
-void GpuPairChecker::finish(const Batch& batch, Part& part)
+void GpuPairChecker::finish(const Work& work, Part& part)
 {
-  if (fetch(part, batch.verdicts))
-    return batch.done(part.begin, part.count);
-  const std::size_t begin = part.begin;
-  const std::size_t count = part.count;
-  if (count == 1)
+  if (fetch(part, work.parts))
+    return;
+  const StateRange whole = part.states;
+  if (whole.count == 1)
   {
-    batch.verdicts[begin] = VERDICT_UNDECIDED;
-    return batch.done(begin, count);
+    const std::uint32_t undecided = VERDICT_UNDECIDED;
+    return work.parts.bring(whole, &undecided, {});
   }
-  batch.parts.tooLarge(count);
-  for (const auto& [first, states] : {std::pair(begin, count / 2), std::pair(begin + count / 2, count - count / 2)})
+  work.size.tooLarge(whole.count);
+  const std::size_t half = whole.count / 2;
+  for (const StateRange& states : {StateRange{whole.begin, half}, StateRange{whole.begin + half, whole.count - half}})
   {
-    part.begin = first;
-    part.count = states;
-    start(batch, part);
-    finish(batch, part);
+    part.states = states;
+    start(work, part);
+    finish(work, part);
   }
 }
 
-bool GpuPairChecker::fetch(Part& part, Verdicts& verdicts)
+bool GpuPairChecker::fetch(Part& part, PartSource& to)
 {
-  const AnswerOffsets offsets(part.count);
+  const AnswerOffsets offsets(part.states.count);
   const std::uint32_t* words = part.fetched.wait();
+  refuseLostContext();  // a reset may have left wrong verdicts behind
   if (words[COUNTER_OVERFLOW] != 0 || words[COUNTER_DONE] != part.serial)
     return false;
-  work_.states += part.count;
-  work_.candidates += words[LIST_CANDIDATES + LIST_LENGTH];
-  work_.root_pairs += words[LIST_ROOT_PAIRS + LIST_LENGTH];
-  work_.traversed += words[LIST_MESH_ENTRIES + LIST_LENGTH] + words[LIST_SOLID_ENTRIES + LIST_LENGTH];
-  std::copy_n(words + offsets.verdicts / sizeof(std::uint32_t), part.count,
-              verdicts.begin() + static_cast<std::ptrdiff_t>(part.begin));
+  GpuWork work;
+  work.states = part.states.count;
+  work.candidates = words[LIST_CANDIDATES + LIST_LENGTH];
+  work.root_pairs = words[LIST_ROOT_PAIRS + LIST_LENGTH];
+  work.traversed = std::size_t(words[LIST_MESH_ENTRIES + LIST_LENGTH]) + words[LIST_SOLID_ENTRIES + LIST_LENGTH];
+  work_ += work;
+  const std::uint32_t* const verdicts = words + offsets.verdicts / sizeof(std::uint32_t);
+  learnOrder(verdicts, part.states.count);
+  to.bring(part.states, verdicts, work);
   return true;
 }
 
 /// Starts all of a part's work without waiting for any of it.
-void GpuPairChecker::start(const Batch& batch, Part& part)
+void GpuPairChecker::start(const Work& work, Part& part)
 {
-  const AnswerOffsets offsets(part.count);
+  const AnswerOffsets offsets(part.states.count);
   part.answers.reserve(offsets.end);
   // The proofs write each verdict, so none is left if their dispatch is lost.
-  part.answers.clear(offsets.verdicts, offsets.verdict_bytes, provesFirst(batch) ? VERDICT_UNDECIDED : VERDICT_FREE);
-  lists_.reserve(part.count, TexelBuffer::maxBytes());
+  part.answers.clear(offsets.verdicts, offsets.verdict_bytes, provesFirst(work) ? VERDICT_UNDECIDED : VERDICT_FREE);
+  lists_.reserve(part.states.count, TexelBuffer::maxBytes());
   lists_.clearCounters();
-  poses_.reserve(part.count * scene_.robotCount() * POSE_TEXELS * TexelBuffer::kTexelBytes);
-  batch.poses.begin(part.begin, part.count);
-  if (batch.margins)
-    margins_.write(*batch.margins, part.begin, part.count);
+  poses_.reserve(part.states.count * scene_.robotCount() * POSE_TEXELS * TexelBuffer::kTexelBytes);
+  work.poses.begin(part.states.begin, part.states.count);
+  if (work.margins)
+    margins_.write(*work.margins, part.states.begin, part.states.count);
   scene_.bind();
   lists_.counters.bindStorage(BINDING_COUNTERS);
   part.answers.bindStorage(BINDING_VERDICTS, offsets.verdicts, offsets.verdict_bytes);
 
-  const auto states = static_cast<std::uint32_t>(part.count);
-  if (provesFirst(batch))
+  const auto states = static_cast<std::uint32_t>(part.states.count);
+  if (provesFirst(work))
   {
-    proofs_.start({states, scene_.robotCount(), static_cast<std::uint32_t>(batch.margins ? batch.margins->width : 0)},
+    proofs_.start({states, scene_.robotCount(), static_cast<std::uint32_t>(work.margins ? work.margins->width : 0)},
                   lists_);
-    batch.poses.placeOpenStates(poses_, lists_);
+    work.poses.placeOpenStates(poses_, lists_);
   }
   else
   {
     lists_.open_states.bindStorage(BINDING_OPEN_STATES);
-    batch.poses.place(poses_);
+    work.poses.place(poses_);
   }
   poses_.bindTexture(UNIT_ROBOT_POSES);
   for (const Program* program :
@@ -300,14 +317,14 @@ void GpuPairChecker::start(const Batch& batch, Part& part)
   {
     program->set(LOCATION_STATE_COUNT, states);
     program->set(LOCATION_ROBOT_COUNT, scene_.robotCount());
-    if (batch.margins && program != &programs_->self)
-      program->set(LOCATION_MARGIN_COUNT, static_cast<std::uint32_t>(batch.margins->width));
+    if (work.margins && program != &programs_->self)
+      program->set(LOCATION_MARGIN_COUNT, static_cast<std::uint32_t>(work.margins->width));
   }
-  if (!provesFirst(batch))
+  if (!provesFirst(work))
     findCandidates(states);
   testRoots();
   testHalfSpaces();
-  traverse(scene_.isPadded() || batch.margins);
+  traverse(scene_.isPadded() || work.margins);
   testContainment();
   part.serial = serial_ = std::max(1U, serial_ + 1U);  // 0 is the value of a cleared counter
   done_program_.set(LOCATION_SERIAL, part.serial);
@@ -321,9 +338,9 @@ void GpuPairChecker::start(const Batch& batch, Part& part)
 }
 
 /// Proofs need the states on the device.
-bool GpuPairChecker::provesFirst(const Batch& batch) const
+bool GpuPairChecker::provesFirst(const Work& work) const
 {
-  return proofs_.exist() && batch.poses.boundVariables() != 0;
+  return proofs_.exist() && work.poses.boundVariables() != 0;
 }
 
 /// The queries with the most hits run first, whether they are about the world or about other links.

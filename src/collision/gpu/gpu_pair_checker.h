@@ -3,19 +3,19 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "collision/batch_size.h"
-#include "collision/gpu/broad_phase_order.h"
-#include "collision/gpu/gpu_margins.h"
-#include "collision/gpu/gpu_scene.h"
-#include "collision/gpu/pose_source.h"
+#include "collision/gpu/broad_phase/broad_phase_order.h"
+#include "collision/gpu/part_source.h"
+#include "collision/gpu/problem/gpu_margins.h"
+#include "collision/gpu/problem/gpu_scene.h"
+#include "collision/gpu/problem/pose_source.h"
 #include "collision/gpu/proofs/gpu_proofs.h"
 #include "collision/gpu/traversal/gpu_traversal.h"
+#include "collision/problem/batch_size.h"
 #include "gpu/readback.h"
 #include "shader_constants.h"
 
@@ -23,9 +23,7 @@ namespace gpu_planning_scene::core
 {
 class GpuKinematics;
 
-/// The GPU's results for a batch, one word per state: VERDICT_* or the colliding pair, see GpuPairChecker::pairOf.
-using Verdicts = std::vector<std::uint32_t>;
-
+/// A verdict of the GPU is a word: VERDICT_*, or the colliding pair, see GpuPairChecker::pairOf.
 inline bool isFree(std::uint32_t verdict)
 {
   return verdict == VERDICT_FREE || verdict == VERDICT_OPEN;
@@ -68,15 +66,13 @@ class GpuPairChecker
   /// a fault, each triangle test leaves its state undecided.
   const std::string& floatFault() const { return float_fault_; }
 
-  /// Checks `count` states. The poses must be in the frame of the world's poses, i.e. relative to
-  /// CollisionProblem::origin.
+  /// Checks the states of `parts` until there is none. The poses must be in the frame of the world's poses, i.e.
+  /// relative to CollisionProblem::origin.
   ///
-  /// A batch goes to the device in parts. A part takes at most about `part_seconds`, and the next part is started
-  /// before the results of the current one are fetched. A part whose lists overflow is split; a single state whose
-  /// lists overflow is undecided. `margins`: for these states and pairs; null: none. `done`: called with the first
-  /// state and the number of states as soon as their verdicts are there, while the device works on later parts.
-  using Done = std::function<void(std::size_t begin, std::size_t count)>;
-  void check(PoseSource& source, std::size_t count, Verdicts& verdicts, const Margins* margins, const Done& done);
+  /// A part takes at most about `part_seconds`. The next part is started before the results of the current one are
+  /// fetched, so the device works while verdicts are brought. A part whose lists overflow is split; a single state
+  /// whose lists overflow is undecided. `margins`: for these states and pairs; null: none.
+  void check(PoseSource& source, PartSource& parts, const Margins* margins);
 
   /// Work of the last check. A part whose lists overflowed counts only after it has been split.
   const GpuWork& lastWork() const { return work_; }
@@ -93,34 +89,34 @@ class GpuPairChecker
     Program spheres, world, self, roots, half_spaces;
   };
 
-  /// A batch: the source of its poses, its margins (or null), and the size of its parts.
-  struct Batch
+  /// The work of a call of `check`: the source of poses and of states, margins (or null), and the size of parts.
+  struct Work
   {
     PoseSource& poses;
+    PartSource& parts;
     const Margins* margins;
-    BatchSize& parts;
-    Verdicts& verdicts;
-    const Done& done;
+    BatchSize& size;
   };
 
-  /// The states of a batch that the device works on together, and the buffers for their results.
+  /// The states that the device works on together, and the buffers for their results.
   struct Part
   {
-    std::size_t begin = 0;
-    std::size_t count = 0;
+    StateRange states;
     std::uint32_t serial = 0;
     Buffer answers;    // counters and verdicts on the device, see AnswerOffsets
     Readback fetched;  // the same, read back
   };
 
-  void start(const Batch& batch, Part& part);
-  void finish(const Batch& batch, Part& part);
-  bool fetch(Part& part, Verdicts& verdicts);
-  bool provesFirst(const Batch& batch) const;
+  std::size_t largestPart(const Work& work) const;
+  void bringFree(PartSource& parts) const;
+  void start(const Work& work, Part& part);
+  void finish(const Work& work, Part& part);
+  bool fetch(Part& part, PartSource& to);
+  bool provesFirst(const Work& work) const;
   std::string faultOfProofs(const LaneScene& scene, GpuKinematics& kinematics);
   void findCandidates(std::uint32_t states);
   void writeQueries();
-  void learnOrder(const Verdicts& verdicts);
+  void learnOrder(const std::uint32_t* verdicts, std::size_t count);
   void testRoots();
   void testHalfSpaces();
   TraversalTask task(bool solids, bool padded) const;

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/interpolation.h"
-#include "model/text/number_text.h"
 
 namespace gpu_planning_scene::core
 {

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "gpu_planning_scene/error.h"
+
 // Samples are checked in bisection order, so that collisions are found early. Under the rule Bound, a sample proves a
 // segment free, and so also the other samples in it, if the distance of each pair exceeds its required distance by more
 // than its joint displacement bound. Other segments are halved (adaptive bisection of Schwarzer, Saha, Latombe 2002 and
@@ -13,10 +15,10 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// Short batches, because a call can only be stopped between two batches.
-constexpr BatchSize::Limits kBatch{0.05, 2048, 64, 65536};
+// So many states are in memory at once.
+constexpr std::size_t kStatesInMemory = 65'536;
 // With margins, a state may need as many numbers as the robot has pairs of links.
-constexpr BatchSize::Limits kBatchWithMargins{0.05, 1024, 64, 8192};
+constexpr std::size_t kStatesWithMarginsInMemory = 8192;
 
 // The first round checks the ends and the middle of a motion. Each later round multiplies the number of checked samples
 // by kGrowth.
@@ -74,9 +76,7 @@ MotionBatch::MotionBatch(StateChecker& checker, const RobotModel& robot, const s
     group_(group),
     options_(options),
     last_valid_(query == MotionQuery::LastValid),
-    stop_(stop),
-    batch_size_(kBatch),
-    batch_size_with_margins_(kBatchWithMargins)
+    stop_(stop)
 {
 }
 
@@ -101,10 +101,21 @@ void MotionBatch::add(const double* from, const double* to)
   motions_.push_back(std::move(motion));
 }
 
-std::size_t MotionBatch::nextBatch(std::size_t wanted, const BatchSize& size)
+BatchResult MotionBatch::checkStates(const std::vector<double>& states, std::size_t count,
+                                     const JointNeighbourhood* around)
 {
-  stopped_ = stopped_ || (stop_ && stop_());
-  return stopped_ ? 0 : std::min({wanted, size.size(), options_.max_checks - states_checked_});
+  StateBatch batch{states.data(), count, group_, around};
+  if (stop_)
+    batch.go_on = [this](std::size_t /*answered*/) { return !stop_(); };
+  try
+  {
+    return checker_.checkBatch(batch);
+  }
+  catch (const Cancelled&)
+  {
+    stopped_ = true;
+    return {};
+  }
 }
 
 /// Adds the row that the intervals of a group share. It depends only on the motion and on the group, so the answers do
@@ -122,26 +133,30 @@ void MotionBatch::addRow(const Interval& interval, JointNeighbourhood& around) c
 }
 
 template <class Visit>
+void MotionBatch::giveUp(const std::vector<Interval>& intervals, std::size_t begin, const Visit& visit)
+{
+  for (std::size_t i = begin; i < intervals.size(); ++i)
+  {
+    if (!isWanted(intervals[i]))
+      continue;
+    motions_[intervals[i].motion].given_up = !stopped_;
+    visit(intervals[i], false, kNoPair);
+  }
+}
+
+template <class Visit>
 void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit)
 {
   const std::size_t width = robot_.variables().size();
-  BatchSize& size = with_margins ? batch_size_with_margins_ : batch_size_;
+  const std::size_t most = with_margins ? kStatesWithMarginsInMemory : kStatesInMemory;
   std::vector<double> states;
   std::size_t count = 0;
   for (std::size_t begin = 0; begin < intervals.size(); begin += count)
   {
-    count = nextBatch(intervals.size() - begin, size);
+    stopped_ = stopped_ || (stop_ && stop_());
+    count = stopped_ ? 0 : std::min({intervals.size() - begin, most, options_.max_checks - states_checked_});
     if (count == 0)
-    {
-      for (std::size_t i = begin; i < intervals.size(); ++i)
-      {
-        if (!isWanted(intervals[i]))
-          continue;
-        motions_[intervals[i].motion].given_up = !stopped_;
-        visit(intervals[i], false, kNoPair);
-      }
-      return;
-    }
+      return giveUp(intervals, begin, visit);
     states.resize(count * width);
     JointNeighbourhood around;
     around.spread = Interval::kGroup;
@@ -162,11 +177,12 @@ void MotionBatch::checkMiddles(const std::vector<Interval>& intervals, bool with
       last_group = interval.group();
       around.rows.push_back(static_cast<std::uint32_t>(around.travel.size() / motion.travel.size() - 1));
     }
+    const BatchResult result = checkStates(states, count, with_margins ? &around : nullptr);
+    if (stopped_)
+      return giveUp(intervals, begin, visit);
     states_checked_ += count;
-    const BatchResult result = checker_.check(states.data(), count, group_, with_margins ? &around : nullptr);
     for (std::size_t i = 0; i < count; ++i)
       visit(intervals[begin + i], result.valid[i] != 0, result.colliding[i]);
-    size.took(count, result.seconds);
   }
 }
 

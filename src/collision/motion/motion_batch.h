@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "collision/batch_size.h"
 #include "collision/bounds/reach.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "gpu_planning_scene/motion_checker.h"
@@ -101,8 +100,11 @@ class MotionBatch
   template <class Visit>
   void checkMiddles(const std::vector<Interval>& intervals, bool with_margins, const Visit& visit);
   void addRow(const Interval& interval, JointNeighbourhood& around) const;
-  /// The number of intervals to check next, in one batch; 0: the call is stopped or has no checks left.
-  std::size_t nextBatch(std::size_t wanted, const BatchSize& size);
+  /// Visits the intervals from `begin` on as not free, because the call is stopped or has no checks left.
+  template <class Visit>
+  void giveUp(const std::vector<Interval>& intervals, std::size_t begin, const Visit& visit);
+  /// After the call, stopped_ may be set; the result is then empty.
+  BatchResult checkStates(const std::vector<double>& states, std::size_t count, const JointNeighbourhood* around);
   std::vector<Interval> firstIntervals() const;
   std::vector<Interval> halves(const std::vector<Interval>& intervals);
 
@@ -115,8 +117,6 @@ class MotionBatch
   const std::function<bool()>& stop_;
 
   bool stopped_ = false;
-  BatchSize batch_size_;  // without margins
-  BatchSize batch_size_with_margins_;
   std::vector<Motion> motions_;
   std::size_t states_checked_ = 0;
 };

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/rows_without.h"
+#include "collision/problem/rows_without.h"
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core

@@ -12,13 +12,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/text/one_line.h"
+#include "base/text/utf8.h"
 #include "gpu_planning_scene/error.h"
 #include "model/description/xacro_packages.h"
 #include "model/description/xml.h"
 #include "model/description/xml_kind.h"
 #include "model/files/child_process.h"
-#include "model/text/one_line.h"
-#include "model/text/utf8.h"
 
 namespace gpu_planning_scene::core
 {

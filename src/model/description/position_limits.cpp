@@ -6,10 +6,10 @@
 
 #include <urdf_model/model.h>
 
+#include "base/text/name_list.h"
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "model/description/velocity_limits.h"
-#include "model/text/name_list.h"
-#include "model/text/number_text.h"
 
 // The limits of a joint are those that MoveIt's RobotModel and RobotModelLoader give it: the intersection of <limit>
 // and <safety_controller>, and instead of each of these two numbers the number of joint_limits, if there is one.

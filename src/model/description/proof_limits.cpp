@@ -5,8 +5,8 @@
 #include <set>
 #include <utility>
 
+#include "base/text/parse_number.h"
 #include "model/robot_text.h"
-#include "model/text/parse_number.h"
 
 namespace gpu_planning_scene::core
 {

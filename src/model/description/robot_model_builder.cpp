@@ -4,6 +4,9 @@
 
 #include <urdf_model/model.h>
 
+#include "base/text/name_list.h"
+#include "base/text/one_line.h"
+#include "base/text/utf8.h"
 #include "gpu_planning_scene/error.h"
 #include "model/description/description_file.h"
 #include "model/description/groups.h"
@@ -15,9 +18,6 @@
 #include "model/description/urdf_reader.h"
 #include "model/kinematics.h"
 #include "model/robot_text.h"
-#include "model/text/name_list.h"
-#include "model/text/one_line.h"
-#include "model/text/utf8.h"
 
 namespace gpu_planning_scene::core
 {

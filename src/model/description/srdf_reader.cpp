@@ -6,9 +6,9 @@
 
 #include <tinyxml2.h>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
 #include "model/description/xml_kind.h"
-#include "model/text/name_list.h"
 
 namespace gpu_planning_scene::core
 {

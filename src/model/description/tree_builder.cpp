@@ -6,11 +6,11 @@
 
 #include <urdf_model/model.h>
 
+#include "base/math_constants.h"
 #include "gpu_planning_scene/error.h"
 #include "model/description/collision_shapes.h"
 #include "model/description/position_limits.h"
 #include "model/description/velocity_limits.h"
-#include "model/math_constants.h"
 
 namespace gpu_planning_scene::core
 {

@@ -5,8 +5,8 @@
 
 #include <tinyxml2.h>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/name_list.h"
 
 // The elements and attributes are those of URDF 1.0 (http://wiki.ros.org/urdf/XML), and those of newer versions and of
 // Gazebo that change no collision geometry.

@@ -5,8 +5,8 @@
 
 #include <urdf_model/model.h>
 
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/number_text.h"
 
 // The limits of velocity and acceleration are those that MoveIt's RobotModel and RobotModelLoader give a joint, except
 // that a limit of joint_limits must be above 0. MoveIt refuses other limits only when it computes times.

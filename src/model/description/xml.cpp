@@ -5,8 +5,8 @@
 
 #include <tinyxml2.h>
 
+#include "base/text/nearest_key.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/nearest_key.h"
 
 namespace gpu_planning_scene::core
 {

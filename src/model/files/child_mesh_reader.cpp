@@ -7,13 +7,13 @@
 #include <dlfcn.h>
 #include <sys/wait.h>
 
+#include "base/text/memory_text.h"
+#include "base/text/number_text.h"
+#include "base/text/one_line.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/mesh_reader.h"
 #include "model/files/child_process.h"
 #include "model/files/mesh_pipe.h"
-#include "model/text/memory_text.h"
-#include "model/text/number_text.h"
-#include "model/text/one_line.h"
 
 namespace gpu_planning_scene::core
 {

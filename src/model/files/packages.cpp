@@ -10,10 +10,10 @@
 #include <sys/stat.h>
 #include <tinyxml2.h>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/resources.h"
 #include "model/files/package_path.h"
-#include "model/text/name_list.h"
 
 // Finds ROS packages as rospack does, without ROS.
 namespace gpu_planning_scene::core

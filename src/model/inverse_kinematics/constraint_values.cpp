@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "model/math_constants.h"
+#include "base/math_constants.h"
 
 // The derivatives of the parameters of a rotation: J. Diebel: Representing attitude: Euler angles, unit quaternions,
 // and rotation vectors. Stanford University, 2006. F. Bullo, R. M. Murray: Proportional derivative (PD) control on the

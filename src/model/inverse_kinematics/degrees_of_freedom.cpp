@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "model/math_constants.h"
+#include "base/math_constants.h"
 
 namespace gpu_planning_scene::core
 {

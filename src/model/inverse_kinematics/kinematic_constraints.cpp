@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/math_constants.h"
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "model/inverse_kinematics/constraint_values.h"
-#include "model/math_constants.h"
 #include "model/rigid_pose.h"
-#include "model/text/number_text.h"
 
 namespace gpu_planning_scene::core
 {

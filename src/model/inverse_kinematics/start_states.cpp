@@ -1,6 +1,6 @@
 #include "model/inverse_kinematics/start_states.h"
 
-#include "model/math_constants.h"
+#include "base/math_constants.h"
 
 namespace gpu_planning_scene::core
 {

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "model/math_constants.h"
+#include "base/math_constants.h"
 #include "model/meshes/collada_document.h"
 
 // COLLADA 1.4.1, chapter 5: the child elements of <node>.

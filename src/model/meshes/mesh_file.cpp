@@ -6,10 +6,10 @@
 #include <fstream>
 #include <map>
 
+#include "base/text/one_line.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/mesh_reader.h"
 #include "model/meshes/mesh_formats.h"
-#include "model/text/one_line.h"
 
 namespace gpu_planning_scene::core
 {

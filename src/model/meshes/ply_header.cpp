@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/text/parse_number.h"
 #include "gpu_planning_scene/error.h"
 #include "model/meshes/words.h"
-#include "model/text/parse_number.h"
 
 namespace gpu_planning_scene::core
 {

@@ -2,9 +2,9 @@
 #include <map>
 #include <utility>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/robot_model.h"
-#include "model/text/name_list.h"
 
 // Rules for the solids of meshes: their names, and robots with other rules.
 namespace gpu_planning_scene::core

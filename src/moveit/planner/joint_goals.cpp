@@ -5,8 +5,8 @@
 #include <map>
 #include <string>
 
+#include "base/math_constants.h"
 #include "gpu_planning_scene/interpolation.h"
-#include "model/math_constants.h"
 #include "moveit/planner/refusal.h"
 
 // A set of joint constraints is a box in joint space. Its middle is the goal, and random states of the box are further

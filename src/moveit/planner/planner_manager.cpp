@@ -43,8 +43,8 @@ core::CheckServer::MakeChecker checkerMakerFor(const std::string& device)
 {
   core::BatchCheckerOptions options;
   options.device = device;
-  return core::makeResilientCheckers(options, {}, core::openChecker,
-                                     [](const std::string& warning) { ROS_WARN_STREAM_NAMED(kLogName, warning); });
+  return core::makeCheckers(options, core::openGpuDevice,
+                            [](const std::string& warning) { ROS_WARN_STREAM_NAMED(kLogName, warning); });
 }
 
 std::string textParameter(const std::string& name, const std::string& fallback)

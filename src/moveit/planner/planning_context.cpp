@@ -9,8 +9,8 @@
 #include <moveit/robot_state/conversions.h>
 #include <ros/console.h>
 
+#include "base/seconds_since.h"
 #include "gpu_planning_scene/interpolation.h"
-#include "model/seconds_since.h"
 #include "moveit/planner/pose_constraints.h"
 #include "moveit/planner/refusal.h"
 #include "moveit/planner/request.h"

@@ -8,8 +8,8 @@
 #include <moveit/robot_model/prismatic_joint_model.h>
 #include <moveit/robot_model/revolute_joint_model.h>
 
+#include "base/math_constants.h"
 #include "model/description/robot_parts.h"
-#include "model/math_constants.h"
 #include "moveit/collision_shape.h"
 #include "moveit/planner/converted_shapes.h"
 #include "moveit/planner/refusal.h"

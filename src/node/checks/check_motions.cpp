@@ -14,6 +14,7 @@
 #include "node/endpoints/respond.h"
 #include "node/messages/requested_constraints.h"
 #include "node/messages/requested_ends.h"
+#include "service/service_errors.h"
 
 // The service ~check_motions.
 namespace gpu_planning_scene::core
@@ -70,7 +71,7 @@ CheckMotions::Response CheckServices::checkMotions(const CheckMotions::Request& 
             fulfils.push_back(path.holdAlong(&starts[i * width], &ends[i * width]) ? 1 : 0);
         }
         if (stopping_)
-          throw shuttingDown();
+          throw ShuttingDown();
         // The full states above serve to count the samples. For the check, the variables that the request does not name
         // come from the checked snapshot, which may be newer than `now`.
         job.states = std::move(given.starts);

@@ -4,6 +4,8 @@
 #include <future>
 #include <utility>
 
+#include "service/service_errors.h"
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -32,11 +34,6 @@ void CheckServices::stop()
   revision_waits_.stop();
 }
 
-Error CheckServices::shuttingDown()
-{
-  return Error("shutting down: the request was not answered");
-}
-
 /// The scene that a request names by its revision; no value: the request names none (0).
 std::optional<Snapshot> CheckServices::wantedScene(std::uint64_t revision)
 {
@@ -57,7 +54,7 @@ CheckAnswer CheckServices::answerOf(CheckJob job) const
   {
     waited += stopping_ ? kPollInterval : std::chrono::milliseconds{0};
     if (waited >= kShutdownGrace)
-      throw shuttingDown();
+      throw ShuttingDown();
   }
   return answer.get();
 }

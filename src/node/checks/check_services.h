@@ -51,7 +51,6 @@ class CheckServices
   void stop();
 
  private:
-  static Error shuttingDown();
   CheckAnswer answerOf(CheckJob job) const;
   std::optional<Snapshot> wantedScene(std::uint64_t revision);
   void inspect(const CheckStates::Request& request, const CheckAnswer& answer, CheckStates::Response& response);

@@ -2,15 +2,17 @@
 #include <chrono>
 #include <numeric>
 
+#include "base/seconds_since.h"
+#include "base/text/one_line.h"
 #include "gpu_planning_scene/error.h"
 #include "model/joint_limits.h"
-#include "model/seconds_since.h"
 #include "node/checks/check_services.h"
 #include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"
 #include "node/endpoints/topic_warnings.h"
 #include "node/messages/pose_messages.h"
 #include "node/messages/requested_states.h"
+#include "service/service_errors.h"
 
 // The service ~check_states, with contacts and clearance.
 namespace gpu_planning_scene::core
@@ -166,7 +168,7 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
   for (std::size_t i = 0; i < valid.size(); ++i)
   {
     if (stopping_)
-      throw shuttingDown();
+      throw ShuttingDown();
     const double* state = answer.states.data() + i * width;
     if (!valid[i] && request.max_contacts != 0)
     {
@@ -185,7 +187,7 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
   for (std::size_t i = 0; has_distances && i < valid.size(); i += kStatesPerPart)
   {
     if (stopping_)
-      throw shuttingDown();
+      throw ShuttingDown();
     const std::size_t count = std::min(kStatesPerPart, valid.size() - i);
     const double* states = answer.states.data() + i * width;
     if (request.clearance)

@@ -3,12 +3,12 @@
 #include <tuple>
 #include <utility>
 
+#include "base/math_constants.h"
 #include "collision/motion/motions_of_group.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "model/full_states.h"
-#include "model/math_constants.h"
 #include "node/checks/check_services.h"
 #include "node/checks/requested_motions.h"
 #include "node/checks/requested_scene.h"

@@ -5,9 +5,9 @@
 
 #include <ros/console.h>
 
+#include "base/text/one_line.h"
 #include "collision/checkers/scene_text.h"
 #include "model/full_states.h"
-#include "model/text/one_line.h"
 
 namespace gpu_planning_scene::core
 {

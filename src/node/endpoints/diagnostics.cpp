@@ -5,9 +5,9 @@
 #include <ros/console.h>
 #include <ros/this_node.h>
 
-#include "collision/checkers/resilient_checker.h"
+#include "base/text/one_line.h"
+#include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/body_parts.h"
-#include "model/text/one_line.h"
 #include "service/memory_guard.h"
 
 namespace gpu_planning_scene::core
@@ -37,10 +37,10 @@ DeviceHistory sumOf(const std::vector<std::shared_ptr<const StateChecker>>& chec
   DeviceHistory sum;
   for (const auto& checker : checkers)
   {
-    const auto* resilient = dynamic_cast<const ResilientChecker*>(checker.get());
-    if (resilient == nullptr)
+    const auto* with_devices = dynamic_cast<const BatchChecker*>(checker.get());
+    if (with_devices == nullptr)
       continue;
-    const DeviceHistory history = resilient->history();
+    const DeviceHistory history = with_devices->history();
     sum.losses += history.losses;
     sum.rebuilds += history.rebuilds;
     sum.batches_on_cpu += history.batches_on_cpu;

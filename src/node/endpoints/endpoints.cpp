@@ -2,6 +2,8 @@
 
 #include <boost/make_shared.hpp>
 
+#include "base/text/one_line.h"
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -18,8 +20,8 @@ class WakeUp : public ros::CallbackInterface
 }  // namespace
 
 Endpoints::Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, std::size_t threads,
-                     Diagnostics& diagnostics, Refusal refusal)
-  : node_(node), own_(own), diagnostics_(diagnostics), refusal_(std::move(refusal))
+                     Diagnostics& diagnostics, Precondition precondition)
+  : node_(node), own_(own), diagnostics_(diagnostics), precondition_(std::move(precondition))
 {
   node_.setCallbackQueue(&queue_);
   own_.setCallbackQueue(&queue_);

@@ -14,7 +14,7 @@
 #include "node/endpoints/bounded_message.h"
 #include "node/endpoints/diagnostics.h"
 #include "node/endpoints/respond.h"
-#include "service/busy.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -35,32 +35,35 @@ constexpr bool kHasMessage<Response, std::void_t<decltype(Response::message)>> =
 class Endpoints
 {
  public:
-  /// Returns the reason why no request is answered and no message is taken now; empty: all are. Thread-safe.
-  using Refusal = std::function<std::string()>;
+  /// Throws the reason why no request is answered and no message is taken now. Thread-safe.
+  using Precondition = std::function<void()>;
 
   Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, std::size_t threads, Diagnostics& diagnostics,
-            Refusal refusal = {});
+            Precondition precondition = {});
   ~Endpoints();
 
   /// Advertises a service in the node's namespace. `answer` turns a request into a response. If it throws, the response
-  /// has the error in its fields `success` and `message`. Without these fields, the error is logged, and without
-  /// `success`, the call fails.
+  /// has the error in its fields `success`, `status` and `message`. Without these fields, the error is logged, and
+  /// without `success`, the call fails.
   template <class Service, class Answer>
   void advertise(const std::string& name, Answer answer)
   {
     const auto handle =
         [this, answer, name](Bounded<typename Service::Request>& request, typename Service::Response& response)
     {
-      if (closed_ && request.fault.empty())
-        request.fault = "shutting down: the request was not answered";
-      if (request.fault.empty() && refusal_)
-        request.fault = refusal_();
-      if (request.fault.empty())
-        request.fault = errorOf([&] { response = answer(request.message); });
-      if (request.fault.empty() && refusal_)
-        request.fault = refusal_();  // the reason may have come while the request waited
+      const Fault fault = faultOf(
+          [&]
+          {
+            if (!request.fault.empty())
+              throw Error(request.fault);
+            if (closed_)
+              throw ShuttingDown();
+            requirePrecondition();
+            response = answer(request.message);
+            requirePrecondition();  // it may have been broken while the request waited
+          });
       last_answer_ = std::chrono::steady_clock::now();
-      return close(name, request.fault, response);
+      return close(name, fault, response);
     };
     ros::AdvertiseServiceOptions options = boundedService<Service>(own_.resolveName(name), handle, &queue_);
     services_.push_back(own_.advertiseService(options));
@@ -80,10 +83,8 @@ class Endpoints
                                                     if (!message.fault.empty())
                                                       throw Error(message.fault);
                                                     if (closed_)
-                                                      throw Error("the node is shutting down");
-                                                    if (const std::string why = refusal_ ? refusal_() : "";
-                                                        !why.empty())
-                                                      throw Error(why);
+                                                      throw ShuttingDown("the node is shutting down");
+                                                    requirePrecondition();
                                                     take(message.message);
                                                   }
                                                   catch (const Busy& error)
@@ -112,25 +113,31 @@ class Endpoints
   bool refuseWaiting();
 
  private:
+  void requirePrecondition() const
+  {
+    if (precondition_)
+      precondition_();
+  }
+
   /// Reports a fault in the response. Returns false if the service call fails.
   template <class Response>
-  bool close(const std::string& name, const std::string& fault, Response& response)
+  bool close(const std::string& name, const Fault& fault, Response& response)
   {
     if constexpr (kHasMessage<Response>)
     {
-      if (!fault.empty())
-        response = respond<Response>([&fault](Response&) { throw Error(fault); });
+      if (fault)
+        response = failed<Response>(fault);
       if (!response.success)
         diagnostics_.refused(response.message);
       return true;
     }
     else
     {
-      if (!fault.empty())
-        refuseRequest(name, fault);
+      if (fault)
+        refuseRequest(name, fault.message);
       if constexpr (kHasSuccess<Response>)
-        response.success = fault.empty();
-      return kHasSuccess<Response> || fault.empty();
+        response.success = !fault;
+      return kHasSuccess<Response> || !fault;
     }
   }
   void refuseRequest(const std::string& service, const std::string& why);
@@ -140,7 +147,7 @@ class Endpoints
   ros::NodeHandle node_;
   ros::NodeHandle own_;
   Diagnostics& diagnostics_;
-  const Refusal refusal_;
+  const Precondition precondition_;
   std::vector<ros::ServiceServer> services_;
   std::vector<ros::Subscriber> topics_;
   std::atomic<bool> closed_{false};

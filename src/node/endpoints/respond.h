@@ -1,36 +1,47 @@
 #pragma once
 
-#include <exception>
-#include <new>
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "model/text/one_line.h"
+#include <gpu_planning_scene/Status.h>
 
 namespace gpu_planning_scene::core
 {
-/// Runs `work` and returns its error as a short line; empty if it throws nothing.
+/// Why a request failed: the fields `status` and `message` of its response. Without a fault, the status is OK and the
+/// message is empty.
+struct Fault
+{
+  std::uint8_t status = Status::OK;
+  std::string message;
+
+  explicit operator bool() const { return status != Status::OK; }
+};
+
+/// The fault of the exception that is being handled. The type of the exception decides the status. The message is a
+/// short line and not empty.
+Fault currentFault();
+
+/// Runs `work` and returns its fault.
 template <class Work>
-std::string errorOf(Work work)
+Fault faultOf(Work work)
 {
   try
   {
     work();
-    return "";
-  }
-  catch (const std::bad_alloc&)
-  {
-    return "out of memory; send smaller requests";
-  }
-  catch (const std::exception& error)
-  {
-    const std::string line = shortLine(error.what());
-    return line.empty() ? "unknown error" : line;
+    return {};
   }
   catch (...)
   {
-    return "unknown error";
+    return currentFault();
   }
+}
+
+/// Runs `work` and returns its error as a short line; empty if it throws nothing.
+template <class Work>
+std::string errorOf(Work work)
+{
+  return faultOf(work).message;
 }
 
 /// Appends a warning to the message of a response. An empty warning changes nothing.
@@ -47,21 +58,26 @@ inline void addWarnings(const std::vector<std::string>& warnings, std::string& m
     addWarning(warning, message);
 }
 
-/// Returns the response that `work` fills in, with `success` set. If `work` throws, returns an empty response without
-/// `success` and with the error in `message`.
+/// The response to a request that failed. Its other fields are empty.
+template <class Response>
+Response failed(const Fault& fault)
+{
+  Response response;
+  response.success = false;
+  response.status = fault.status;
+  response.message = fault.message;
+  return response;
+}
+
+/// Returns the response that `work` fills in. `success` is true if `work` leaves the status OK. If `work` throws,
+/// returns failed().
 template <class Response, class Work>
 Response respond(Work work)
 {
   Response response;
-  const std::string error_text = errorOf([&] { work(response); });
-  if (error_text.empty())
-  {
-    response.success = true;
-    return response;
-  }
-  Response failed;
-  failed.success = false;
-  failed.message = error_text;
-  return failed;
+  if (const Fault fault = faultOf([&] { work(response); }))
+    return failed<Response>(fault);
+  response.success = response.status == Status::OK;
+  return response;
 }
 }  // namespace gpu_planning_scene::core

@@ -6,7 +6,7 @@
 
 #include <ros/console.h>
 
-#include "model/text/one_line.h"
+#include "base/text/one_line.h"
 
 namespace gpu_planning_scene::core
 {

@@ -23,6 +23,7 @@ class LeaderScene : private SceneFollower<PlanningSceneMessage, GetPlanningScene
   ~LeaderScene() override;
 
   using SceneFollower::fault;
+  using SceneFollower::requireScene;
   using SceneFollower::stop;
   /// The reason why the node's clients cannot change the scene.
   std::string changeFault() const;

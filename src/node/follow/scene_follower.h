@@ -13,6 +13,7 @@
 #include "gpu_planning_scene/error.h"
 #include "node/endpoints/bounded_message.h"
 #include "node/endpoints/respond.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -47,6 +48,13 @@ class SceneFollower
     if (fault_.empty() && is_fetching_ && Clock::now() - call_began_ > kLongFetch && !queue_.isEmpty())
       return unknown("it changes while it is being fetched, which takes long");
     return fault_;
+  }
+
+  /// Throws Unavailable if the followed scene is not known now. Thread-safe.
+  void requireScene() const
+  {
+    if (const std::string reason = fault(); !reason.empty())
+      throw Unavailable(reason);
   }
 
   /// Drops the connection of a running fetch, which ends the fetch. This is repeated until the thread ends, because the

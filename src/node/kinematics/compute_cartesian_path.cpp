@@ -3,12 +3,12 @@
 #include <optional>
 #include <string>
 
+#include "base/seconds_since.h"
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/cartesian_path.h"
 #include "gpu_planning_scene/planning/path_timing.h"
 #include "model/rigid_pose.h"
-#include "model/seconds_since.h"
-#include "model/text/number_text.h"
 #include "node/checks/state_warnings.h"
 #include "node/endpoints/respond.h"
 #include "node/kinematics/kinematics_services.h"

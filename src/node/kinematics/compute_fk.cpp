@@ -1,14 +1,15 @@
 #include <optional>
 #include <string>
 
+#include "base/text/nearest_key.h"
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
-#include "model/text/nearest_key.h"
 #include "node/endpoints/respond.h"
 #include "node/kinematics/kinematics_services.h"
 #include "node/messages/pose_messages.h"
 #include "node/messages/requested_states.h"
 #include "scene/frame.h"
+#include "service/service_errors.h"
 
 // The service ~compute_fk.
 namespace gpu_planning_scene::core
@@ -67,7 +68,7 @@ ComputeFk::Response KinematicsServices::computeFk(const ComputeFk::Request& requ
         for (std::size_t i = 0; i < count; ++i)
         {
           if (stopping_)
-            throw Error("shutting down: the request was not answered");
+            throw ShuttingDown();
           robot.linkPoses(states.data() + i * robot.variables().size(), links.data());
           for (const LocatedFrame& frame : frames)
           {

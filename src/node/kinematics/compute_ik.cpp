@@ -3,10 +3,11 @@
 #include <string>
 #include <utility>
 
+#include "base/seconds_since.h"
+#include "base/text/one_line.h"
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
 #include "model/joint_limits.h"
-#include "model/seconds_since.h"
 #include "node/checks/state_warnings.h"
 #include "node/endpoints/respond.h"
 #include "node/kinematics/kinematics_services.h"
@@ -47,7 +48,7 @@ void addResults(const std::vector<CollisionFreeIkResult>& results, const Group& 
 {
   for (const CollisionFreeIkResult& result : results)
   {
-    response.status.push_back(statusOf(result.status));
+    response.pose_status.push_back(statusOf(result.status));
     response.faults.push_back(shortLine(result.message));
     response.counts.push_back(static_cast<std::uint32_t>(result.states.size()));
     for (const std::vector<double>& state : result.states)

@@ -4,6 +4,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "node/parameters/parameter_values.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -39,6 +40,6 @@ void KinematicsServices::stop()
 void KinematicsServices::refuseIfStopping() const
 {
   if (stopping_)
-    throw Error("shutting down: the request was not answered");
+    throw ShuttingDown();
 }
 }  // namespace gpu_planning_scene::core

@@ -54,7 +54,7 @@ class KinematicsServices
   ComputeCartesianPath::Response computeCartesianPath(const ComputeCartesianPath::Request& request);
   ComputeFk::Response computeFk(const ComputeFk::Request& request) const;
 
-  /// Ends running searches. Running and queued requests get an Error "shutting down".
+  /// Ends running searches. Running and queued requests get ShuttingDown.
   void stop();
 
  private:
@@ -67,8 +67,8 @@ class KinematicsServices
                      ComputeIk::Response& response) const;
   void refuseIfStopping() const;
 
-  /// Calls `work` with a leased checker. Gives the checker back, unless it may be the cause of an error. Throws Error
-  /// if the node stops meanwhile.
+  /// Calls `work` with a leased checker. Gives the checker back, unless it may be the cause of an error. Throws
+  /// ShuttingDown if the node stops meanwhile.
   template <class Work>
   auto withLease(CheckerPool::Lease& lease, const Work& work) const
   {

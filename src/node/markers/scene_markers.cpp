@@ -1,6 +1,6 @@
 #include "node/markers/scene_markers.h"
 
-#include "collision/exact/binned_sah.h"
+#include "collision/trees/binned_sah.h"
 #include "gpu_planning_scene/error.h"
 #include "node/markers/shape_markers.h"
 #include "node/messages/pose_messages.h"

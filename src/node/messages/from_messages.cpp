@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/name_list.h"
 #include "node/messages/joint_transform.h"
 #include "node/messages/object_from_message.h"
 #include "node/messages/octomap_messages.h"

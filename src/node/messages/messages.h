@@ -21,6 +21,7 @@
 #include <gpu_planning_scene/PlanningScene.h>
 #include <gpu_planning_scene/PlanningSceneComponents.h>
 #include <gpu_planning_scene/ShowTreeLevel.h>
+#include <gpu_planning_scene/Status.h>
 
 namespace gpu_planning_scene::core
 {

@@ -3,12 +3,13 @@
 #include <cmath>
 #include <optional>
 
+#include "base/math_constants.h"
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/inverse_kinematics.h"
-#include "model/math_constants.h"
 #include "model/rigid_pose.h"
-#include "model/text/number_text.h"
 #include "scene/constraints_from_message.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -57,6 +58,10 @@ Eigen::Isometry3d PoseReader::pose(const geometry_msgs::PoseStamped& message, bo
   try
   {
     pose = frame({message.header.frame_id, static_cast<std::int64_t>(message.header.stamp.toNSec())}) * pose;
+  }
+  catch (const ShuttingDown&)
+  {
+    throw;  // its type decides the status of the answer
   }
   catch (const Error& error)
   {

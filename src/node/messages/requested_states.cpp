@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
-#include "model/text/name_list.h"
 
 namespace gpu_planning_scene::core
 {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
-#include "model/text/name_list.h"
 #include "node/messages/joint_transform.h"
 
 namespace gpu_planning_scene::core

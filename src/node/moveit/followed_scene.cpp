@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/name_list.h"
 #include "node/follow/scene_difference.h"
 #include "node/moveit/mimic_joints.h"
 

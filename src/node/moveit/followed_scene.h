@@ -27,6 +27,7 @@ class FollowedScene : private SceneFollower<MoveItScene, MoveItGetScene>
   ~FollowedScene() override;
 
   using SceneFollower::fault;
+  using SceneFollower::requireScene;
   using SceneFollower::stop;
 
  private:

@@ -23,12 +23,16 @@ struct MoveItInterface::Impl
       validity(node.store, node.changes, node.checks, node.options.max_contacts),
       kinematics(node.store, node.kinematics),
       requests(node.node, node.own, kValidityThreads, node.diagnostics,
-               [this, node_fault = node.scene_fault] { return node_fault().empty() ? sceneFault() : node_fault(); })
+               [this, require_scene_of_node = node.require_scene]
+               {
+                 require_scene_of_node();
+                 requireScene();
+               })
   {
     if (!options.monitor.node.empty())
     {
       followed.emplace(node.node, node.own, options.monitor, node.store, node.changes, look_up);
-      node.diagnostics.watchScene([this] { return sceneFault(); });
+      node.diagnostics.watchScene([this] { return followed->fault(); });
     }
     if (options.names)
       names.emplace(node.node, node.store, node.changes, validity, kinematics, node.lookup, node.diagnostics,
@@ -37,7 +41,11 @@ struct MoveItInterface::Impl
         "check_state_validity", [this](const MoveItStateValidity::Request& r) { return validity.answer(r.ours); });
   }
 
-  std::string sceneFault() const { return followed ? followed->fault() : ""; }
+  void requireScene() const
+  {
+    if (followed)
+      followed->requireScene();
+  }
 
   const MoveItOptions options;
   const SceneStore::Lookup look_up;
@@ -52,9 +60,9 @@ MoveItInterface::MoveItInterface(const Node& node) : impl_(std::make_unique<Impl
 
 MoveItInterface::~MoveItInterface() = default;
 
-std::string MoveItInterface::sceneFault() const
+void MoveItInterface::requireScene() const
 {
-  return impl_->sceneFault();
+  impl_->requireScene();
 }
 
 std::string MoveItInterface::changeFault() const

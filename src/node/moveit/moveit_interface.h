@@ -30,15 +30,15 @@ class MoveItInterface
     const FrameLookup& lookup;
     Diagnostics& diagnostics;
     const ServiceOptions& options;
-    Endpoints::Refusal scene_fault;  ///< of the node without this interface
+    Endpoints::Precondition require_scene;  ///< of the node without this interface
   };
 
   /// Throws Error for parameters that are wrong or that this build does not support.
   explicit MoveItInterface(const Node& node);
   ~MoveItInterface();
 
-  /// The reason why the node must not answer from its scene now; empty if it may. Thread-safe.
-  std::string sceneFault() const;
+  /// Throws Unavailable if the node must not answer from its scene now. Thread-safe.
+  void requireScene() const;
   /// The reason why the scene cannot be changed by the node's clients; empty if it can. Thread-safe.
   std::string changeFault() const;
 

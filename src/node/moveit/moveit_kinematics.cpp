@@ -190,7 +190,7 @@ moveit_msgs::GetPositionIK::Response MoveItKinematics::ik(const moveit_msgs::Get
         ours.scene_diff = changeOf(wanted.robot_state);
         const ComputeIk::Response found = kinematics_.computeIk(ours);
         requireSuccess(found);
-        if (found.status.front() != ComputeIk::Response::SOLVED)
+        if (found.pose_status.front() != ComputeIk::Response::SOLVED)
           throw Refused(MoveItErrorCodes::NO_IK_SOLUTION, found.faults.front());
         response.solution = stateOf(*store_.snapshot().scene->robot, found.joint_names, found.solutions.data());
       });

@@ -20,10 +20,7 @@ MoveItInterface::MoveItInterface(const Node& node)
 
 MoveItInterface::~MoveItInterface() = default;
 
-std::string MoveItInterface::sceneFault() const
-{
-  return "";
-}
+void MoveItInterface::requireScene() const {}
 
 std::string MoveItInterface::changeFault() const
 {

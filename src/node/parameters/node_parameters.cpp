@@ -193,8 +193,10 @@ BatchCheckerOptions checkerOptionsFromParameters(const ros::NodeHandle& own)
     options.traversal = traversalFromName(textParameter(own, "traversal", ""));
   options.max_batch = countParameter(own, "max_batch", options.max_batch, 1, std::size_t{1} << 24);
   options.tolerance = lengthParameter(own, "tolerance", options.tolerance);
-  if (own.hasParam("cpu_below"))
-    options.cpu_below = countParameter(own, "cpu_below", 0, 0, kNoLimit);
+  options.device_only = own.param("device_only", options.device_only);
+  options.limits.device_seconds = positiveParameter(own, "device_timeout", options.limits.device_seconds);
+  options.limits.max_losses = countParameter(own, "device_losses", options.limits.max_losses, 1, 1000);
+  options.limits.retry_seconds = positiveParameter(own, "device_retry", options.limits.retry_seconds);
   return options;
 }
 
@@ -220,15 +222,6 @@ CheckServerOptions serverOptionsFromParameters(const ros::NodeHandle& own)
   options.max_waiting_requests = countParameter(own, "limits/waiting_requests", options.max_waiting_requests, 1, 1000);
   options.max_waiting_states = countParameter(own, "limits/waiting_states", options.max_waiting_states, 1, kNoLimit);
   options.max_states = countParameter(own, "limits/request_states", options.max_states, 1, kNoLimit);
-  return options;
-}
-
-ResilientOptions resilienceFromParameters(const ros::NodeHandle& own)
-{
-  ResilientOptions options;
-  options.device_seconds = positiveParameter(own, "device_timeout", options.device_seconds);
-  options.max_losses = countParameter(own, "device_losses", options.max_losses, 1, 1000);
-  options.retry_seconds = positiveParameter(own, "device_retry", options.retry_seconds);
   return options;
 }
 

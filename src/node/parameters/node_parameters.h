@@ -7,7 +7,6 @@
 
 #include <ros/node_handle.h>
 
-#include "collision/checkers/resilient_checker.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/planning_scene.h"
 #include "gpu_planning_scene/point_cloud.h"
@@ -25,7 +24,7 @@ namespace gpu_planning_scene::core
 PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneDefaults& defaults,
                                   std::vector<std::string>* warnings);
 
-/// ~device, ~traversal, ~max_batch, ~tolerance and ~cpu_below.
+/// ~device, ~traversal, ~max_batch, ~tolerance, ~device_only, ~device_timeout, ~device_losses and ~device_retry.
 BatchCheckerOptions checkerOptionsFromParameters(const ros::NodeHandle& own);
 
 /// The parameters ~limits/ of a scene.
@@ -33,9 +32,6 @@ SceneLimits sceneLimitsFromParameters(const ros::NodeHandle& own);
 
 /// ~small_request, and the parameters ~limits/ of requests.
 CheckServerOptions serverOptionsFromParameters(const ros::NodeHandle& own);
-
-/// ~device_timeout, ~device_losses and ~device_retry.
-ResilientOptions resilienceFromParameters(const ros::NodeHandle& own);
 
 struct ServiceOptions
 {

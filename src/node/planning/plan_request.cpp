@@ -7,13 +7,13 @@
 #include <set>
 #include <utility>
 
+#include "base/text/name_list.h"
+#include "base/text/number_text.h"
+#include "base/text/parse_number.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "model/full_states.h"
 #include "model/joint_limits.h"
-#include "model/text/name_list.h"
-#include "model/text/number_text.h"
-#include "model/text/parse_number.h"
 #include "node/checks/state_warnings.h"
 #include "node/parameters/parameter_values.h"
 #include "node/planning/requested_goals.h"

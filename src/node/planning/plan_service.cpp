@@ -14,7 +14,7 @@
 #include "node/messages/requested_timing.h"
 #include "node/messages/trajectory_messages.h"
 #include "node/planning/requested_goals.h"
-#include "service/busy.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -29,7 +29,7 @@ std::uint8_t statusOf(PlanningStatus status)
   switch (status)
   {
     case PlanningStatus::Solved:
-      return Response::SOLVED;
+      return Status::OK;
     case PlanningStatus::Approximate:
       return Response::APPROXIMATE;
     case PlanningStatus::NoSolution:
@@ -47,28 +47,7 @@ std::uint8_t statusOf(PlanningStatus status)
     case PlanningStatus::GoalViolatesConstraints:
       return Response::GOAL_VIOLATES_CONSTRAINTS;
   }
-  return Response::FAILED;
-}
-
-/// An error in the request.
-class BadRequest : public Error
-{
- public:
-  using Error::Error;
-};
-
-/// Runs work in which every Error comes from the request. Rethrows these errors as BadRequest.
-template <class Work>
-auto asRequestError(const Work& work)
-{
-  try
-  {
-    return work();
-  }
-  catch (const Error& error)
-  {
-    throw BadRequest(error.what());
-  }
+  return Status::INTERNAL_ERROR;
 }
 }  // namespace
 
@@ -133,30 +112,7 @@ void PlanService::stop()
 
 PlanMotion::Response PlanService::plan(const PlanMotion::Request& request)
 {
-  std::uint8_t fault = Response::FAILED;
-  auto response = respond<Response>(
-      [&](Response& filled)
-      {
-        try
-        {
-          fill(request, filled);
-        }
-        catch (const Busy&)
-        {
-          fault = Response::BUSY;
-          throw;
-        }
-        catch (const BadRequest&)
-        {
-          fault = Response::BAD_REQUEST;
-          throw;
-        }
-      });
-  if (!response.success)
-    response.status = fault;
-  else
-    response.success = response.status == Response::SOLVED;
-  return response;
+  return respond<Response>([&](Response& response) { fill(request, response); });
 }
 
 PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
@@ -182,19 +138,16 @@ PlanService::Answer PlanService::plan(const Task& task)
   const auto stop = [this] { return stopping_.load(); };
   try
   {
-    Answer answer{
-        asRequestError([&] { return planMotion(task.scene, lease.checker(), task.query, *task.factory, stop); }), {}};
+    Answer answer{planMotion(task.scene, lease.checker(), task.query, *task.factory, stop), {}};
     if (task.timing && !answer.plan.waypoints.empty())
-      answer.timed = asRequestError(
-          [&] {
-            return timePath(*task.scene, lease.checker(), task.query.group, answer.plan.waypoints, *task.timing, stop);
-          });
+      answer.timed =
+          timePath(*task.scene, lease.checker(), task.query.group, answer.plan.waypoints, *task.timing, stop);
     lease.giveBack();
     return answer;
   }
-  catch (const BadRequest&)
+  catch (const Error&)
   {
-    lease.giveBack();  // the checker is not the cause of the error
+    lease.giveBack();  // the checker is not the cause of the error: it has no device that could be lost
     throw;
   }
 }
@@ -203,11 +156,11 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
 {
   memory_.require();
   const Admission::Pass pass(admission_);
-  const Task task = asRequestError([&] { return taskOf(request); });
+  const Task task = taskOf(request);
   Answer answer = plan(task);
   const PlanningResult& result = answer.plan;
   if (stopping_)
-    throw Error("shutting down: the request was not answered");
+    throw ShuttingDown();
   const Group& group = task.scene->robot->group(request.group);
   response.status = statusOf(result.status);
   response.message = result.message;

@@ -40,7 +40,7 @@ class PlanService
 
   PlanMotion::Response plan(const PlanMotion::Request& request);
 
-  /// Ends running planners. Running and queued requests get an Error "shutting down".
+  /// Ends running planners. Running and queued requests get ShuttingDown.
   void stop();
 
  private:

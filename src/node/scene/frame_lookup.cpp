@@ -4,8 +4,9 @@
 #include <sstream>
 #include <thread>
 
+#include "base/text/nearest_key.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/nearest_key.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -68,7 +69,7 @@ Eigen::Isometry3d FrameLookup::operator()(const StampedFrame& frame, Clock::time
     catch (const tf2::TransformException&)
     {
       if (stopping_())
-        throw Error("shutting down: the lookup of frame '" + frame.name + "' was stopped");
+        throw ShuttingDown("shutting down: the lookup of frame '" + frame.name + "' was stopped");
       if (!last)
         continue;
       std::ostringstream text;

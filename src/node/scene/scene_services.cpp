@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
+#include "base/text/name_list.h"
+#include "base/text/one_line.h"
 #include "collision/checkers/scene_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "model/joint_limits.h"
-#include "model/text/name_list.h"
-#include "model/text/one_line.h"
 #include "node/endpoints/respond.h"
 #include "node/messages/exact_numbers.h"
 #include "node/messages/from_messages.h"

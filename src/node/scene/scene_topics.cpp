@@ -4,10 +4,10 @@ namespace gpu_planning_scene::core
 {
 SceneTopics::SceneTopics(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneServices& changes,
                          const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t max_changes,
-                         std::size_t max_bytes, Endpoints::Refusal refusal)
+                         std::size_t max_bytes, Endpoints::Precondition precondition)
   : changes_(changes),
     lookup_(lookup),
-    topics_(node, own, 1, diagnostics, std::move(refusal)),  // one thread, to keep the order of the messages
+    topics_(node, own, 1, diagnostics, std::move(precondition)),  // one thread, to keep the order of the messages
     queue_([this] { return beginBatch(); },
            [this](const std::string& topic, const std::string& why) { topics_.refuse(topic, why); }, max_changes,
            max_bytes)

@@ -16,7 +16,7 @@ class SceneTopics
   /// passed by reference must outlive this object.
   SceneTopics(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneServices& changes,
               const FrameLookup& lookup, Diagnostics& diagnostics, std::size_t max_changes, std::size_t max_bytes,
-              Endpoints::Refusal refusal = {});
+              Endpoints::Precondition precondition = {});
   /// Calls stop().
   ~SceneTopics();
 

@@ -1,9 +1,9 @@
 #include "planning/goals/checked_endpoints.h"
 
+#include "base/text/number_text.h"
 #include "collision/bounds/reach.h"
 #include "collision/problem/state_validation.h"
 #include "model/joint_limits.h"
-#include "model/text/number_text.h"
 
 namespace gpu_planning_scene::core
 {

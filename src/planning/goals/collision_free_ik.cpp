@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "collision/parallel_for.h"
+#include "base/parallel_for.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 #include "model/inverse_kinematics/ik_search.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "gpu_planning_scene/inverse_kinematics.h"
@@ -12,7 +13,6 @@
 #include "model/inverse_kinematics/kinematic_chains.h"
 #include "model/joint_limits.h"
 #include "model/rigid_pose.h"
-#include "model/text/number_text.h"
 #include "planning/lines/straight_lines.h"
 #include "scene/frame.h"
 

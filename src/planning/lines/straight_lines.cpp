@@ -4,9 +4,9 @@
 #include <cmath>
 #include <string>
 
+#include "base/math_constants.h"
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
-#include "model/math_constants.h"
-#include "model/text/number_text.h"
 
 namespace gpu_planning_scene::core
 {

@@ -5,7 +5,7 @@
 
 #include <ompl/util/Time.h>
 
-#include "collision/available_cores.h"
+#include "base/available_cores.h"
 #include "planning/search/rrt_searches.h"
 #include "planning/validity/bulk_validator.h"
 

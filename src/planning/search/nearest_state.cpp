@@ -10,7 +10,7 @@
 #include <ompl/base/StateSpaceTypes.h>
 #include <ompl/util/Exception.h>
 
-#include "model/math_constants.h"
+#include "base/math_constants.h"
 
 // The distances are those of OMPL's spaces: the length of the difference in R^n, the smaller arc in SO(2), the angle
 // between unit quaternions as points of the sphere in SO(3), and weighted sums in compounds.

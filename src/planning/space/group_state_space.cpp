@@ -13,10 +13,10 @@
 #include <ompl/tools/config/MagicConstants.h>
 #include <Eigen/Core>
 
+#include "base/math_constants.h"
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
-#include "model/math_constants.h"
-#include "model/text/number_text.h"
 
 // The joints with limits share one space; each other joint has a space of its own. The default projection has the first
 // joints with limits, because joints near the root move the robot the most. Planners with a grid of projections use it

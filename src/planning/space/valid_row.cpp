@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstddef>
 
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "model/joint_limits.h"
-#include "model/text/number_text.h"
 #include "planning/space/waypoints.h"
 
 namespace gpu_planning_scene::core

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <utility>
 
+#include "base/seconds_since.h"
+#include "base/text/name_list.h"
+#include "base/text/number_text.h"
 #include "collision/motion/motions_of_group.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
-#include "model/seconds_since.h"
-#include "model/text/name_list.h"
-#include "model/text/number_text.h"
 #include "planning/space/valid_row.h"
 #include "planning/space/waypoints.h"
 #include "planning/timing/blended_path.h"

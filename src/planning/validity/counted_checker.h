@@ -17,11 +17,10 @@ class CountedChecker : public StateChecker
   explicit CountedChecker(std::shared_ptr<StateChecker> checker) : checker_(std::move(checker)) {}
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override { checker_->setScene(std::move(scene)); }
-  BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const JointNeighbourhood* around) override
+  BatchResult checkBatch(const StateBatch& batch) override
   {
-    BatchResult result = checker_->check(states, count, group, around);
-    states_ += count;
+    BatchResult result = checker_->checkBatch(batch);
+    states_ += batch.count;
     microseconds_ += static_cast<std::uint64_t>(1e6 * result.seconds);
     return result;
   }

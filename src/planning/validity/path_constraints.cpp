@@ -5,10 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "base/math_constants.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "model/inverse_kinematics/constraint_values.h"
 #include "model/inverse_kinematics/kinematic_chains.h"
-#include "model/math_constants.h"
 
 // A sample in the middle of a segment proves the segment if its slack exceeds the largest change to the ends of the
 // segment. If not, the segment is halved. The same idea as for collisions: F. Schwarzer, M. Saha, J.-C. Latombe: Exact

@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
-#include "model/text/name_list.h"
 #include "scene/changes/scene_changer.h"
 
 // Objects of the world: adding, appending to, moving and removing them.

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "base/text/one_line.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/one_line.h"
 #include "scene/changes/scene_changer.h"
 
 namespace gpu_planning_scene::core

@@ -1,9 +1,9 @@
 #include <iterator>
 
+#include "base/text/parse_number.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "model/files/open_file.h"
-#include "model/text/parse_number.h"
 
 namespace gpu_planning_scene::core
 {

@@ -1,8 +1,8 @@
 #include "gpu_planning_scene/planning_file.h"
 
+#include "base/text/one_line.h"
 #include "gpu_planning_scene/error.h"
 #include "model/joint_limits_entry.h"
-#include "model/text/one_line.h"
 #include "scene/files/yaml_value.h"
 
 namespace gpu_planning_scene::core

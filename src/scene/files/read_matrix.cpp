@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <set>
 
-#include "model/text/name_list.h"
+#include "base/text/name_list.h"
 #include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 #include "scene/has_body.h"

@@ -1,9 +1,9 @@
 #include <algorithm>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
 #include "model/joint_limits.h"
-#include "model/text/name_list.h"
 #include "model/virtual_joint.h"
 #include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"

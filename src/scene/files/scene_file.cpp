@@ -1,5 +1,5 @@
+#include "base/text/one_line.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/one_line.h"
 #include "scene/changes/matrix_entries.h"
 #include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"

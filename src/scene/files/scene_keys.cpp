@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "model/text/name_list.h"
-#include "model/text/nearest_key.h"
+#include "base/text/name_list.h"
+#include "base/text/nearest_key.h"
 
 namespace gpu_planning_scene::core
 {

@@ -6,10 +6,10 @@
 #include <iterator>
 #include <set>
 
+#include "base/text/utf8.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "model/files/open_file.h"
-#include "model/text/utf8.h"
 #include "scene/files/text_tokens.h"
 #include "scene/message_values.h"
 #include "scene/shape_order.h"

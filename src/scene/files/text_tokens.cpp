@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
+#include "base/text/one_line.h"
+#include "base/text/parse_number.h"
 #include "gpu_planning_scene/error.h"
-#include "model/text/one_line.h"
-#include "model/text/parse_number.h"
 
 namespace gpu_planning_scene::core
 {

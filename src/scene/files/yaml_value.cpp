@@ -12,10 +12,10 @@
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
 
+#include "base/text/parse_number.h"
+#include "base/text/utf8.h"
 #include "gpu_planning_scene/error.h"
 #include "model/files/open_file.h"
-#include "model/text/parse_number.h"
-#include "model/text/utf8.h"
 
 namespace gpu_planning_scene::core
 {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <pthread.h>
 
+#include "base/parallel_for.h"
 #include "collision/bounds/problem_maker.h"
-#include "collision/parallel_for.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "model/model_testing.h"
 

@@ -8,8 +8,8 @@
 
 #include "collision/bounds/problem_maker.h"
 #include "collision/checkers/scene_text.h"
-#include "collision/exact/binned_sah.h"
 #include "collision/exact/cpu_traversal.h"
+#include "collision/trees/binned_sah.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "model/model_testing.h"
@@ -137,7 +137,7 @@ TEST_P(ReductionsIn, ChangeNoAnswerOfTheGpu)
   for (const Setting& setting : {kNone, kDirect, kAll})
   {
     BatchCheckerOptions options;
-    options.cpu_below = 0;
+    options.device_only = true;
     options.reductions = setting.reductions;
     BatchChecker reduced(scene_, options);
     for (const std::string& group : groups_)
@@ -283,10 +283,10 @@ TEST_F(SmallScene, AnswersStatesOutsideTheLimitsWithAllPairs)
   CpuChecker on_cpu(scene_);
   EXPECT_EQ(on_cpu.report().unreachable_objects, 2U);
   EXPECT_EQ(on_cpu.check(states.data(), 4).valid, expected);
-  for (const std::size_t cpu_below : {0, 1000})
+  for (const bool device_only : {true, false})
   {
     BatchCheckerOptions options;
-    options.cpu_below = cpu_below;
+    options.device_only = device_only;
     const BatchResult result = BatchChecker(scene_, options).check(states.data(), 4);
     EXPECT_EQ(result.valid, expected);
     EXPECT_EQ(scene_->bodyName(result.colliding[3][1]), "behind");
@@ -299,7 +299,7 @@ TEST_F(SmallScene, CollidesInEveryStateWhereAFixedPairDoes)
   const std::vector<double> states = {0.9, -0.9, 3.1};
   CpuChecker on_cpu(scene_);
   BatchCheckerOptions options;
-  options.cpu_below = 0;
+  options.device_only = true;
   BatchChecker on_gpu(scene_, options);
   for (StateChecker* checker : {static_cast<StateChecker*>(&on_cpu), static_cast<StateChecker*>(&on_gpu)})
   {
@@ -413,7 +413,7 @@ TEST_F(SmallScene, ReportsThePairsThatCollideInEverySample)
   EXPECT_EQ(pairs_of(on_cpu), expected);
   EXPECT_EQ(pairs_of(on_cpu), expected);  // the second report is the first one
   BatchCheckerOptions options;
-  options.cpu_below = 0;
+  options.device_only = true;
   BatchChecker on_gpu(scene_, options);
   EXPECT_EQ(pairs_of(on_gpu), expected);
   const std::vector<std::string> warnings = warningsOfScene(*scene_, on_cpu.report());

@@ -7,11 +7,10 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/checkers/cpu_or_gpu.h"
-#include "collision/checkers/cpu_scene.h"
 #include "collision/checkers/open_checker.h"
-#include "collision/filter/proofs/proof_worker.h"
+#include "collision/cpu/cpu_scene.h"
 #include "collision/gpu/sliding_balls.h"
+#include "collision/proofs/proof_worker.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
@@ -32,7 +31,7 @@ BatchCheckerOptions with(Traversal traversal, std::size_t max_batch = 16384)
   BatchCheckerOptions options;
   options.traversal = traversal;
   options.max_batch = max_batch;
-  options.cpu_below = 0;
+  options.device_only = true;
   return options;
 }
 
@@ -119,7 +118,6 @@ TEST_F(BatchCheckerTest, NamesTheBodiesThatCollideAndTheRevision)
 TEST_F(BatchCheckerTest, AnswersABatchOfHundredsOfThousandsOfStatesInItsOrder)
 {
   BatchCheckerOptions options;
-  options.cpu_below = kNoBatch;
   BatchChecker checker(scene_, options);
   constexpr std::size_t kStates = 600'000;
   std::vector<double> states;
@@ -161,11 +159,9 @@ TEST_F(BatchCheckerTest, CountsWhatTheGpuLookedAt)
   checker.check(nullptr, 0);
   EXPECT_EQ(checker.lastWork().states, 0U);
 
-  BatchCheckerOptions on_cpu = with(Traversal::WorkQueue);
-  on_cpu.cpu_below = 100;
-  BatchChecker on_cpu_only(scene_, on_cpu);
-  on_cpu_only.check(touching_.data(), 1);
-  EXPECT_EQ(on_cpu_only.lastWork().states, 0U);
+  BatchChecker together(scene_);
+  together.check(touching_.data(), 1);
+  EXPECT_EQ(together.lastWork().states, 0U);
 }
 
 TEST_F(BatchCheckerTest, RefusesValuesThatAreNotFiniteAndUnknownGroups)
@@ -350,12 +346,13 @@ TEST_F(SeveralDevices, AnswerLikeOne)
   const std::vector<double> states = test.randomStates(kCount, 3);
   BatchCheckerOptions options;
   options.device = "software+software";
-  options.cpu_below = 0;
-  const auto two = openChecker(test.scene, options);
+  options.device_only = true;
+  const auto two = openChecker(test.scene, options, [](const std::string&) {});
   EXPECT_NE(two->deviceName().find(" + "), std::string::npos);
   EXPECT_EQ(two->check(states.data(), kCount).valid, CpuChecker(test.scene).check(states.data(), kCount).valid);
   options.device = "software+no such device";
-  EXPECT_NE(errorOf([&] { openChecker(test.scene, options); }).find("no such device"), std::string::npos);
+  EXPECT_NE(errorOf([&] { openChecker(test.scene, options, [](const std::string&) {}); }).find("no such device"),
+            std::string::npos);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

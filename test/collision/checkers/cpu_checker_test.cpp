@@ -133,9 +133,10 @@ TEST(OpenChecker, TheCpuTakesTheOptions)
   BatchCheckerOptions options;
   options.device = "cpu";
   const auto scene = std::make_shared<PlanningScene>(robotOf(armUrdf()));
-  EXPECT_EQ(openChecker(scene, options)->deviceName(), "CPU");
+  EXPECT_EQ(openChecker(scene, options, [](const std::string&) {})->deviceName(), "CPU");
   options.tolerance = -1.0;
-  EXPECT_NE(errorOf([&] { openChecker(scene, options); }).find("tolerance"), std::string::npos);
+  EXPECT_NE(errorOf([&] { openChecker(scene, options, [](const std::string&) {}); }).find("tolerance"),
+            std::string::npos);
 }
 
 TEST_F(CpuCheckerTest, RefusesWhatItCannotCheckAndGoesOn)

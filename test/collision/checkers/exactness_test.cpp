@@ -69,7 +69,8 @@ class Exact : public testing::TestWithParam<Slice>
   {
     std::cout << GetParam().name << ", seed " << kSeed << ": " << exactness.states << " states, " << exactness.valid
               << " free, " << exactness.either << " left open by the contract, "
-              << exactness.work_queue.states + exactness.breadth_first.states << " undecided by floats" << std::endl;
+              << exactness.undecided_work_queue + exactness.undecided_breadth_first << " undecided by floats"
+              << std::endl;
     EXPECT_EQ(0u, exactness.false_free);
     EXPECT_EQ(0u, exactness.false_collision);
     EXPECT_EQ(0u, exactness.false_pair);

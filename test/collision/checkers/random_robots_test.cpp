@@ -13,8 +13,8 @@
 
 #include "collision/bounds/displacement_bounds.h"
 #include "collision/bounds/problem_maker.h"
+#include "collision/cpu/lanes/lane_checker.h"
 #include "collision/exact/forest_cache.h"
-#include "collision/filter/lanes/lane_checker.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/interpolation.h"
@@ -403,7 +403,7 @@ TEST_P(RandomRobots, HaveTheVerdictsOfTheCpuOnTheGpu)
   {
     BatchCheckerOptions options;
     options.traversal = traversal;
-    options.cpu_below = 0;
+    options.device_only = true;
     options.max_batch = below(2) == 0 ? 16384 : 64;
     EXPECT_EQ(BatchChecker(made, options).check(states.data(), kStatesOfARobot).valid, expected)
         << "seed " << GetParam() << ", " << made->robot->links().size() << " links, " << made->objects.size()
@@ -477,7 +477,7 @@ TEST_P(RandomRobots, AreAsFreeAroundAStateOnTheGpuAsOnTheCpu)
   {
     BatchCheckerOptions options;
     options.traversal = traversal;
-    options.cpu_below = 0;
+    options.device_only = true;
     options.max_batch = below(2) == 0 ? 16384 : 64;
     BatchChecker checker(made, options);
     const std::vector<std::uint8_t> plain = checker.check(states.data(), kStatesOfARobot).valid;

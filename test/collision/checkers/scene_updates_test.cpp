@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/exact/object_tree.h"
+#include "collision/trees/object_tree.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
@@ -241,7 +241,7 @@ std::shared_ptr<const PlanningScene> anyScene()
 TEST(SceneUpdates, OnTheGpuAreAnsweredAsByAFreshChecker)
 {
   BatchCheckerOptions options;
-  options.cpu_below = 0;
+  options.device_only = true;
   BatchChecker checker(anyScene(), options);
   expectAnswersOfAFreshChecker(checker, repetitions(15, 40));
 }
@@ -255,7 +255,7 @@ TEST(SceneUpdates, OnTheCpuAreAnsweredAsByAFreshChecker)
 TEST(SceneUpdates, WithoutSharedTreesAreAnsweredAsByAFreshChecker)
 {
   BatchCheckerOptions options;
-  options.cpu_below = 0;
+  options.device_only = true;
   options.reductions.shared_trees = false;
   BatchChecker checker(anyScene(), options);
   auto scene = std::make_shared<PlanningScene>(GeneratedArm(200).load());

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/exact/cpu_tree.h"
-#include "collision/filter/proofs/shape_samples.h"
+#include "collision/proofs/shape_samples.h"
+#include "collision/trees/cpu_tree.h"
 #include "gpu_planning_scene/mesh_pair_checker.h"
 #include "model/real_robots.h"
 #include "support/damaged_mesh.h"

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/parallel_for.h"
 #include "collision/bounds/problem_maker.h"
-#include "collision/parallel_for.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
@@ -34,7 +34,7 @@ std::unique_ptr<StateChecker> checkerWith(double tolerance, const std::string& m
   if (method == "cpu")
     return std::make_unique<CpuChecker>(scene, options);
   options.traversal = traversalFromName(method);
-  options.cpu_below = 0;
+  options.device_only = true;
   return std::make_unique<BatchChecker>(scene, options);
 }
 

@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include "base/math_constants.h"
 #include "collision/contacts/colliding_shapes.h"
 #include "collision/contacts/held_shape.h"
 #include "collision/geometry/primitive_solid.h"
-#include "model/math_constants.h"
 #include "oracle/oracle.h"
 #include "support/repetitions.h"
 #include "support/seed.h"

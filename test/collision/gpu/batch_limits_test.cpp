@@ -10,7 +10,8 @@
 #include "collision/exact/cpu_traversal.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/gpu/gpu_pair_checker.h"
-#include "collision/gpu/uploaded_poses.h"
+#include "collision/gpu/problem/uploaded_poses.h"
+#include "collision/gpu/recorded_verdicts.h"
 #include "gpu/egl_context.h"
 #include "shader_constants.h"
 #include "support/seed.h"
@@ -56,23 +57,17 @@ class BatchLimits : public testing::TestWithParam<Traversal>
   }
 
   /// The verdicts of the GPU alone, with lists of given capacities.
-  Verdicts verdictsWith(const ListCapacities& capacities)
+  std::vector<std::uint32_t> verdictsWith(const ListCapacities& capacities)
   {
     EglContext context("auto");
     GpuPairChecker checker(folder_.path(), GetParam(), kStates, capacities);
     checker.setProblem(*problem_);
     const UploadedPoses::LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses_[row]; };
     UploadedPoses poses(*problem_, 1, link_poses);
-    Verdicts verdicts;
-    std::vector<int> done(kStates, 0);
-    checker.check(poses, kStates, verdicts, nullptr,
-                  [&done](std::size_t begin, std::size_t count)
-                  {
-                    for (std::size_t i = begin; i < begin + count; ++i)
-                      ++done[i];
-                  });
-    EXPECT_EQ(done, std::vector<int>(kStates, 1)) << "each verdict is announced once";
-    return verdicts;
+    RecordedVerdicts recorded(kStates);
+    checker.check(poses, recorded, nullptr);
+    EXPECT_EQ(recorded.brought, std::vector<int>(kStates, 1)) << "each verdict is brought once";
+    return recorded.words;
   }
 
   /// The result of the whole checker with the shaders of folder_.
@@ -110,14 +105,14 @@ class BatchLimits : public testing::TestWithParam<Traversal>
 
 TEST_P(BatchLimits, ListsThatOverflowSplitTheBatch)
 {
-  const Verdicts roomy = verdictsWith({});
+  const auto roomy = verdictsWith({});
   // Room for a single state, but not for all states.
   ListCapacities tight;
   tight.candidates = 16;
   tight.root_pairs = 16;
   tight.node_pairs = 40000;
   tight.leaf_pairs = 40000;
-  const Verdicts split = verdictsWith(tight);
+  const auto split = verdictsWith(tight);
   std::size_t hits = 0;
   for (std::size_t i = 0; i < kStates; ++i)
   {
@@ -149,7 +144,7 @@ TEST_P(BatchLimits, RootPairsMayOutnumberNodePairs)
   const std::vector<std::uint8_t> valid = validOnCpu();
   ListCapacities few_node_pairs;
   few_node_pairs.node_pairs = 1;
-  const Verdicts verdicts = verdictsWith(few_node_pairs);
+  const auto verdicts = verdictsWith(few_node_pairs);
   std::size_t hits = 0;
   for (std::size_t i = 0; i < kStates; ++i)
   {
@@ -166,8 +161,8 @@ TEST_P(BatchLimits, AStateThatOverflowsAloneIsUndecided)
   none.root_pairs = 1;
   none.node_pairs = 1;
   none.leaf_pairs = 1;
-  const Verdicts roomy = verdictsWith({});
-  const Verdicts verdicts = verdictsWith(none);
+  const auto roomy = verdictsWith({});
+  const auto verdicts = verdictsWith(none);
   std::size_t undecided = 0;
   for (std::size_t i = 0; i < kStates; ++i)
   {
@@ -223,7 +218,7 @@ TEST_P(BatchLimits, InvocationsThatTheDeviceEndsEarlyAreNoticed)
 
 TEST_P(BatchLimits, ListsThatGrowWhileTheDeviceWorksChangeNoAnswer)
 {
-  const Verdicts once = verdictsWith({});
+  const auto once = verdictsWith({});
   const EglContext context("auto");
   GpuPairChecker checker(folder_.path(), GetParam(), 16384, {}, std::numeric_limits<double>::infinity());
   checker.setProblem(*problem_);
@@ -231,10 +226,10 @@ TEST_P(BatchLimits, ListsThatGrowWhileTheDeviceWorksChangeNoAnswer)
   { *pose = poses_[row % kStates]; };
   UploadedPoses poses(*problem_, 1, link_poses);
   constexpr std::size_t kMany = 40 * kStates;
-  Verdicts verdicts;
-  std::vector<std::size_t> parts;
-  checker.check(poses, kMany, verdicts, nullptr,
-                [&parts](std::size_t /*begin*/, std::size_t count) { parts.push_back(count); });
+  RecordedVerdicts recorded(kMany);
+  checker.check(poses, recorded, nullptr);
+  const std::vector<std::size_t>& parts = recorded.parts;
+  const std::vector<std::uint32_t>& verdicts = recorded.words;
   EXPECT_GT(*std::max_element(parts.begin(), parts.end()), parts.front());
   for (std::size_t i = 0; i < kMany; ++i)
   {
@@ -254,17 +249,16 @@ class FewPoses : public UploadedPoses
 
 TEST_P(BatchLimits, APartHasNoMoreStatesThanTheSourceOfThePosesWrites)
 {
-  const Verdicts once = verdictsWith({});
+  const auto once = verdictsWith({});
   const EglContext context("auto");
   GpuPairChecker checker(folder_.path(), GetParam(), kStates, {}, std::numeric_limits<double>::infinity());
   checker.setProblem(*problem_);
   const UploadedPoses::LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* pose) { *pose = poses_[row]; };
   FewPoses poses(*problem_, 1, link_poses);
-  Verdicts verdicts;
-  std::vector<std::size_t> parts;
-  checker.check(poses, kStates, verdicts, nullptr,
-                [&parts](std::size_t /*begin*/, std::size_t count) { parts.push_back(count); });
-  EXPECT_EQ(parts, (std::vector<std::size_t>{70, 70, 70, 70, 20}));
+  RecordedVerdicts recorded(kStates);
+  checker.check(poses, recorded, nullptr);
+  const std::vector<std::uint32_t>& verdicts = recorded.words;
+  EXPECT_EQ(recorded.parts, (std::vector<std::size_t>{70, 70, 70, 70, 20}));
   for (std::size_t i = 0; i < kStates; ++i)
   {
     EXPECT_EQ(isHit(verdicts[i]), isHit(once[i])) << "state " << i;

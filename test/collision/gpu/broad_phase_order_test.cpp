@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/gpu/broad_phase_order.h"
+#include "collision/gpu/broad_phase/broad_phase_order.h"
 #include "shader_constants.h"
 
 namespace gpu_planning_scene::core

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/exact/binned_sah.h"
-#include "collision/gpu/gpu_scene.h"
+#include "collision/gpu/problem/gpu_scene.h"
+#include "collision/trees/binned_sah.h"
 #include "gpu/egl_context.h"
 #include "gpu_planning_scene/error.h"
 #include "shader_constants.h"

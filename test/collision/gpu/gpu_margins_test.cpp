@@ -1,6 +1,6 @@
 // Margins are rounded up on their way to the device: a smaller margin could prove a colliding motion free.
 
-#include "collision/gpu/gpu_margins.h"
+#include "collision/gpu/problem/gpu_margins.h"
 
 #include <cmath>
 #include <limits>

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/exact/forest.h"
 #include "collision/geometry/oriented_box.h"
 #include "collision/gpu/tree_build/gpu_trees.h"
+#include "collision/trees/forest.h"
 #include "gpu/egl_context.h"
 #include "gpu/program.h"
 #include "shader_constants.h"

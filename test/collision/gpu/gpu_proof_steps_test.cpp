@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/filter/proven_scene.h"
-#include "collision/gpu/gpu_kinematics.h"
 #include "collision/gpu/gpu_pair_checker.h"
+#include "collision/gpu/problem/gpu_kinematics.h"
 #include "collision/gpu/proofs/gpu_proofs.h"
+#include "collision/proofs/proven_scene.h"
 #include "gpu/egl_context.h"
 #include "gpu/program.h"
 #include "shader_constants.h"

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/filter/proven_scene.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/gpu/sliding_balls.h"
+#include "collision/proofs/proven_scene.h"
 #include "support/near_contact.h"
 #include "support/repetitions.h"
 #include "support/seed.h"
@@ -81,7 +81,7 @@ class GpuProofsOfScenes : public testing::TestWithParam<const char*>
       checkers_[proofs ? 1 : 0] = std::make_unique<GpuChecker>(options);
       checkers_[proofs ? 1 : 0]->setProblem(proven_->problem, proven_->scene.scene->robot);
     }
-    checkers_[1]->useProofs(proven_->proofs);
+    checkers_[1]->useProofs(checkers_[1]->laneSceneOf(proven_->proofs));
     EXPECT_EQ(checkers_[1]->fault(), "");
   }
 
@@ -165,7 +165,7 @@ TEST(GpuProofs, FramesThatTheDeviceMisplacesAreFound)
   GpuChecker checker(options);
   checker.setProblem(proven.problem, proven.scene.scene->robot);
   EXPECT_EQ(checker.fault(), "");
-  checker.useProofs(proven.proofs);
+  checker.useProofs(checker.laneSceneOf(proven.proofs));
   EXPECT_NE(checker.fault().find("is elsewhere than the robot model says; trees decide all pairs"), std::string::npos)
       << checker.fault();
 }

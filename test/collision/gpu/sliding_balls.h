@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/filter/proofs/robot_proofs.h"
+#include "collision/proofs/robot_proofs.h"
 #include "gpu_planning_scene/planning_scene.h"
 #include "gpu_planning_scene/robot_model.h"
 #include "gpu_planning_scene/shapes.h"

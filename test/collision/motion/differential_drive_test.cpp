@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/math_constants.h"
 #include "gpu_planning_scene/interpolation.h"
-#include "model/math_constants.h"
 #include "model/model_testing.h"
 
 namespace gpu_planning_scene::core

@@ -232,14 +232,13 @@ class ScriptedChecker : public StateChecker
 {
  public:
   void setScene(std::shared_ptr<const PlanningScene> /*scene*/) override {}
-  BatchResult check(const double* states, std::size_t count, const std::string& /*group*/,
-                    const JointNeighbourhood* /*around*/) override
+  BatchResult checkBatch(const StateBatch& batch) override
   {
     BatchResult result;
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < batch.count; ++i)
     {
       const bool collides =
-          std::any_of(hits.begin(), hits.end(), [&](double hit) { return std::abs(states[2 * i] - hit) < 1e-6; });
+          std::any_of(hits.begin(), hits.end(), [&](double hit) { return std::abs(batch.states[2 * i] - hit) < 1e-6; });
       result.valid.push_back(collides ? 0 : 1);
       result.colliding.push_back(collides ? BodyPair{2, static_cast<std::int32_t>(i)} : kNoPair);
     }
@@ -266,9 +265,9 @@ class ChanceChecker : public StateChecker
 
   explicit ChanceChecker(std::shared_ptr<const RobotModel> robot) : robot_(std::move(robot)) {}
   void setScene(std::shared_ptr<const PlanningScene> /*scene*/) override {}
-  BatchResult check(const double* states, std::size_t count, const std::string& /*group*/,
-                    const JointNeighbourhood* around) override
+  BatchResult checkBatch(const StateBatch& batch) override
   {
+    const auto& [states, count, group, around, owner, go_on] = batch;
     const std::size_t width = robot_->variables().size();
     const std::size_t joints = robot_->joints().size();
     BatchResult result;
@@ -542,7 +541,7 @@ TEST_P(RealMotions, ProvenPartsAreFreeAtTenTimesTheResolution)
   const std::vector<MotionVerdict> verdicts = checker.check(starts.data(), ends.data(), count, MotionQuery::LastValid);
   const std::vector<MotionVerdict> without = checker.check(starts.data(), ends.data(), count);
   BatchCheckerOptions all_on_gpu;
-  all_on_gpu.cpu_below = 0;
+  all_on_gpu.device_only = true;
   const auto gpu = std::make_shared<BatchChecker>(test.scene, all_on_gpu);
   const std::vector<MotionVerdict> on_gpu =
       MotionChecker(gpu, test.scene->robot, "", options).check(starts.data(), ends.data(), count);

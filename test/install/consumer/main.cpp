@@ -29,7 +29,7 @@ try
   const std::vector<std::uint8_t> expected = {1, 0, 1, 1, 0};
   const auto on_cpu = CpuChecker(scene).check(angles, 5).valid;
   BatchCheckerOptions options;
-  options.cpu_below = 0;
+  options.device_only = true;
   BatchChecker checker(scene, options);
   const auto on_gpu = checker.check(angles, 5).valid;
   std::printf("%s\n", checker.deviceName().c_str());

@@ -37,10 +37,12 @@ class Service : public testing::Test
  public:
   CheckStates::Response answer(const CheckStates::Request& asked) { return services.checkStates(asked); }
 
-  void expectRefusal(const CheckStates::Request& asked, const std::string& reason)
+  void expectRefusal(const CheckStates::Request& asked, const std::string& reason,
+                     std::uint8_t status = Status::INVALID_REQUEST)
   {
     const CheckStates::Response response = answer(asked);
     EXPECT_FALSE(response.success);
+    EXPECT_EQ(status, response.status);
     EXPECT_NE(std::string::npos, response.message.find(reason)) << response.message;
     EXPECT_EQ(std::string::npos, response.message.find('\n')) << response.message;
     EXPECT_TRUE(response.valid.empty());
@@ -59,6 +61,7 @@ TEST_F(Service, AnswersEachStateInOrder)
 {
   const CheckStates::Response response = answer(request({"turn", "slide"}, {0.5, 0.0, 0.5, 1.0, 1.0, 0.5}));
   EXPECT_TRUE(response.success) << response.message;
+  EXPECT_EQ(Status::OK, response.status);
   EXPECT_EQ("", response.message);
   EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 1}), response.valid);
   ASSERT_EQ(3u, response.body_1.size());
@@ -81,9 +84,9 @@ TEST_F(Service, ARequestCanNameARevision)
     EXPECT_EQ(std::vector<std::uint8_t>{revision == 5 ? std::uint8_t{0} : std::uint8_t{1}}, response.valid);
   }
   asked.scene_revision = 4;
-  expectRefusal(asked, "revision 4 of the scene is not kept; the newest is 6");
+  expectRefusal(asked, "revision 4 of the scene is not kept; the newest is 6", Status::UNKNOWN_REVISION);
   asked.scene_revision = 7;
-  expectRefusal(asked, "revision 7 of the scene has not arrived; the newest is 6");
+  expectRefusal(asked, "revision 7 of the scene has not arrived; the newest is 6", Status::UNKNOWN_REVISION);
   asked.scene_revision = 0;
   EXPECT_EQ(6u, answer(asked).scene_revision);
 }
@@ -303,8 +306,9 @@ TEST_F(WaitingInspections, AreRejectedWhenTheQueueIsFull)
   for (auto& answer : answers)
   {
     const CheckStates::Response response = answer.get();
-    busy += response.message.rfind("busy: ", 0) == 0 ? 1 : 0;
-    EXPECT_TRUE(response.success || response.message.rfind("busy: ", 0) == 0) << response.message;
+    busy += response.status == Status::BUSY ? 1 : 0;
+    EXPECT_EQ(response.success != 0, response.status == Status::OK) << response.message;
+    EXPECT_TRUE(response.success || response.status == Status::BUSY) << response.message;
   }
   EXPECT_EQ(1, busy);
 }
@@ -316,7 +320,12 @@ TEST_F(WaitingInspections, StopRejectsThemWhileACheckerHangs)
   gate.waitForChecks(1);
   bounded.stop();
   for (auto& answer : answers)
-    EXPECT_EQ("shutting down: the request was not answered", answer.get().message);
+  {
+    const CheckStates::Response response = answer.get();
+    EXPECT_FALSE(response.success);
+    EXPECT_EQ(Status::SHUTTING_DOWN, response.status);
+    EXPECT_EQ("shutting down: the request was not answered", response.message);
+  }
   gate.open();
 }
 
@@ -781,30 +790,35 @@ TEST_F(Service, AProcessThatUsesTooMuchMemoryTakesNothingMore)
 {
   const MemoryGuard full(1);
   CheckServices guarded(store, server, full, {}, {});
-  EXPECT_NE(std::string::npos,
-            guarded.checkStates(request({"turn", "slide"}, {0.0, 0.0})).message.find("limits/memory"));
+  const CheckStates::Response response = guarded.checkStates(request({"turn", "slide"}, {0.0, 0.0}));
+  EXPECT_EQ(Status::UNAVAILABLE, response.status);
+  EXPECT_NE(std::string::npos, response.message.find("limits/memory")) << response.message;
 }
 
+/// A checker that throws the same exception in each check.
+template <class Exception>
 class FailingChecker : public StateChecker
 {
  public:
   void setScene(std::shared_ptr<const PlanningScene>) override {}
-  BatchResult check(const double*, std::size_t, const std::string&, const JointNeighbourhood*) override
-  {
-    throw std::runtime_error("device lost");
-  }
+  BatchResult checkBatch(const StateBatch&) override { throw Exception("no device"); }
   SceneReport report(const std::string&) override { return {}; }
   std::string deviceName() const override { return ""; }
 };
 
 TEST_F(Service, AFailureOfTheDeviceIsAnAnswer)
 {
-  CheckServer failing(store, [](std::shared_ptr<const PlanningScene>) { return std::make_shared<FailingChecker>(); },
-                      {});
-  const auto response =
-      CheckServices(store, failing, memory, {}, {}).checkStates(request({"turn", "slide"}, {0.0, 0.0}));
-  EXPECT_FALSE(response.success);
-  EXPECT_EQ("device lost", response.message);
+  const CheckServer::MakeChecker losing = [](auto) { return std::make_shared<FailingChecker<DeviceLost>>(); };
+  const CheckServer::MakeChecker throwing = [](auto) { return std::make_shared<FailingChecker<std::runtime_error>>(); };
+  for (const CheckServer::MakeChecker& make_checker : {losing, throwing})
+  {
+    CheckServer failing(store, make_checker, {});
+    const auto response =
+        CheckServices(store, failing, memory, {}, {}).checkStates(request({"turn", "slide"}, {0.0, 0.0}));
+    EXPECT_FALSE(response.success);
+    EXPECT_EQ(Status::INTERNAL_ERROR, response.status);
+    EXPECT_EQ("no device", response.message);
+  }
 }
 
 /// A mobile robot with known joint values. The pose of its base is unknown.

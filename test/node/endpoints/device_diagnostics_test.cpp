@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gpu_planning_scene/cpu_checker.h"
+#include "collision/batch/device_parts.h"
 #include "gpu_planning_scene/error.h"
 #include "model/model_testing.h"
 #include "node/endpoints/diagnostics.h"
@@ -19,25 +19,28 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// A device that is lost in each of its next `losses` checks.
-class Device : public CpuChecker
+/// A device that finds all states free, and is lost in each of its next `losses` checks.
+class Device : public BatchDevice
 {
  public:
-  Device(std::shared_ptr<const PlanningScene> scene, std::shared_ptr<std::atomic<int>> losses)
-    : CpuChecker(std::move(scene)), losses_(std::move(losses))
+  explicit Device(std::shared_ptr<std::atomic<int>> losses) : losses_(std::move(losses)) {}
+  void prepare(const DeviceTask&) override {}
+  void check(DeviceParts& parts) override
   {
-  }
-  BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const JointNeighbourhood* around) override
-  {
-    if (*losses_ > 0)
+    for (StateRange part = parts.take(1000); part.count != 0; part = parts.take(1000))
     {
-      --*losses_;
-      throw DeviceLost("the GPU was reset");
+      if (*losses_ > 0)
+      {
+        --*losses_;
+        throw DeviceLost("the GPU was reset");
+      }
+      if (const StateRange mine = parts.beginAnswer(part); mine.count != 0)
+        parts.endAnswer(mine, {});
     }
-    return CpuChecker::check(states, count, group, around);
   }
-  std::string deviceName() const override { return "a device"; }
+  std::string name() const override { return "a device"; }
+  bool isSoftware() const override { return false; }
+  std::string fault() const override { return {}; }
 
  private:
   std::shared_ptr<std::atomic<int>> losses_;
@@ -49,7 +52,11 @@ constexpr std::size_t kLarge = 2000;
 class DeviceDiagnostics : public testing::Test
 {
  protected:
-  DeviceDiagnostics() { resilience_.device_seconds = 0.2; }
+  DeviceDiagnostics()
+  {
+    options_.device_only = true;
+    options_.limits.device_seconds = 0.2;
+  }
   ~DeviceDiagnostics() override { repaired_.set_value(); }
 
   /// Sets the fault of opening the device from now on: it throws, waits, or does nothing.
@@ -60,15 +67,14 @@ class DeviceDiagnostics : public testing::Test
     if (!server_)
     {
       // A thread that waits for `repaired` may go on after the end of the test, so it must not use `this` afterwards.
-      const OpenDevice open = [this, losses = losses_, repaired = repaired_.get_future().share()](
-                                  std::shared_ptr<const PlanningScene> scene, const BatchCheckerOptions&)
+      const OpenDevice open =
+          [this, losses = losses_, repaired = repaired_.get_future().share()](const BatchCheckerOptions&)
       {
         if (fault_ != nullptr)
           fault_.load()(repaired);
-        return std::make_unique<Device>(std::move(scene), losses);
+        return std::make_unique<Device>(losses);
       };
-      const CheckServer::MakeChecker make =
-          makeResilientCheckers(options_, resilience_, open, [](const std::string&) {});
+      const CheckServer::MakeChecker make = makeCheckers(options_, open, [](const std::string&) {});
       server_ = std::make_unique<CheckServer>(store_, diagnostics_.watched(make), CheckServerOptions());
     }
     return *server_;
@@ -87,7 +93,6 @@ class DeviceDiagnostics : public testing::Test
   std::promise<void> repaired_;
   std::shared_ptr<std::atomic<int>> losses_ = std::make_shared<std::atomic<int>>(0);
   BatchCheckerOptions options_;
-  ResilientOptions resilience_;
   SceneStore store_{PlanningScene(sliderRobot()), {}, {}};
   Diagnostics diagnostics_;
   std::unique_ptr<CheckServer> server_;
@@ -131,9 +136,10 @@ TEST_F(DeviceDiagnostics, ADeviceThatHangsWhenItIsOpenedOnceMoreHoldsNobodyUp)
 TEST_F(DeviceDiagnostics, DiagnosticsReportCpuFallbackAndMissingDevice)
 {
   using diagnostic_msgs::DiagnosticStatus;
-  resilience_.retry_seconds = 0.1;
-  resilience_.max_losses = 100;
-  const auto retry = [this] { std::this_thread::sleep_for(std::chrono::duration<double>(resilience_.retry_seconds)); };
+  options_.limits.retry_seconds = 0.1;
+  options_.limits.max_losses = 100;
+  const auto retry = [this]
+  { std::this_thread::sleep_for(std::chrono::duration<double>(options_.limits.retry_seconds)); };
   ask(1);
   EXPECT_EQ(level(), DiagnosticStatus::OK);
   *losses_ = 1;

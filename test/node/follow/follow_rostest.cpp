@@ -128,6 +128,7 @@ TEST_F(Replicas, AnswerForTheRevisionThatARequestNames)
     }
     const CheckStates::Response missing = checkWith(*node, freeStateAt(1));
     EXPECT_FALSE(missing.success);
+    EXPECT_EQ(Status::UNKNOWN_REVISION, missing.status);
     EXPECT_EQ(0U, missing.message.find("revision 1 of the scene is not kept; the newest is ")) << missing.message;
   }
   CheckStates::Response response;
@@ -147,6 +148,7 @@ TEST_F(Replicas, RefuseChangesAndNameTheLeader)
   change.request.scene = diffWith(boxAtTip());
   ASSERT_TRUE(callPersistently(replica->service("apply_planning_scene"), change));
   EXPECT_FALSE(change.response.success);
+  EXPECT_EQ(Status::INVALID_REQUEST, change.response.status);
   EXPECT_EQ(reason, change.response.message);
   Clear clear;
   ASSERT_TRUE(callPersistently(replica->service("clear"), clear));
@@ -219,6 +221,7 @@ TEST_F(Replicas, RefuseRequestsWhileTheLeaderIsAwayAndTakeTheSceneOfItsNextRun)
   const std::unique_ptr<ChildNode> node = follower("waiting", "/other");
   const CheckStates::Response none = checkWith(*node, stateRequest(free_state));
   EXPECT_FALSE(none.success);
+  EXPECT_EQ(Status::UNAVAILABLE, none.status);
   EXPECT_EQ(0U, none.message.find("the scene of /other is not known: ")) << none.message;
   EXPECT_EQ(std::string::npos, none.message.find('\n'));
 
@@ -360,7 +363,25 @@ TEST_F(Sharding, TheAnswerIsThatOfOneNode)
   request.joint_names[0] = "no such joint";
   const CheckStates::Response refused = checker.check(request);
   EXPECT_FALSE(refused.success);
+  EXPECT_EQ(Status::INVALID_REQUEST, refused.status);
   EXPECT_NE(std::string::npos, refused.message.find("no such joint")) << refused.message;
+}
+
+TEST_F(Sharding, WithoutAnAnswerTheStatusIsThatOfTheLastReason)
+{
+  ShardedCheckerOptions impatient;
+  impatient.patience = 0.1;
+  CheckStates::Request request = stateRequest(free_state);
+  const auto expect_status = [&](std::vector<std::string> nodes, std::uint8_t status)
+  {
+    ShardedChecker checker(std::move(nodes), impatient);
+    const CheckStates::Response response = checker.check(request);
+    EXPECT_FALSE(response.success);
+    EXPECT_EQ(status, response.status) << response.message;
+  };
+  expect_status({"/no_such_node"}, Status::UNAVAILABLE);
+  request.scene_revision = 1;
+  expect_status({kLeader}, Status::UNKNOWN_REVISION);
 }
 
 TEST_F(Sharding, AnOlderRevisionCanBeNamed)

@@ -248,7 +248,7 @@ TEST_F(InverseKinematicsService, FindsFreeStatesWithThePosesOfForwardKinematics)
   ASSERT_TRUE(found.success) << found.message;
   EXPECT_EQ("", found.message);
   ASSERT_EQ(wanted.size(), found.counts.size());
-  EXPECT_EQ(std::vector<std::uint8_t>(wanted.size(), ComputeIk::Response::SOLVED), found.status);
+  EXPECT_EQ(std::vector<std::uint8_t>(wanted.size(), ComputeIk::Response::SOLVED), found.pose_status);
   EXPECT_EQ(std::vector<std::string>(wanted.size()), found.faults);
   const std::size_t width = found.joint_names.size();
   ASSERT_EQ(6U, width);
@@ -307,7 +307,7 @@ TEST_F(InverseKinematicsService, SaysForEachPoseWhyItHasNoSolution)
   ASSERT_TRUE(found.success) << found.message;
   EXPECT_EQ((std::vector<std::uint8_t>{ComputeIk::Response::IN_COLLISION, ComputeIk::Response::NO_SOLUTION,
                                        ComputeIk::Response::SOLVED}),
-            found.status);
+            found.pose_status);
   EXPECT_EQ((std::vector<std::uint32_t>{0, 0, 1}), found.counts);
   ASSERT_EQ(3U, found.faults.size());
   EXPECT_NE(std::string::npos, found.faults[0].find("box")) << found.faults[0];
@@ -317,10 +317,10 @@ TEST_F(InverseKinematicsService, SaysForEachPoseWhyItHasNoSolution)
   EXPECT_EQ("", found.faults[2]);
   ComputeIk::Request blind = ikFor({near});
   blind.ignore_collisions = 1;
-  EXPECT_EQ(std::vector<std::uint8_t>{ComputeIk::Response::SOLVED}, call<ComputeIk>("compute_ik", blind).status);
+  EXPECT_EQ(std::vector<std::uint8_t>{ComputeIk::Response::SOLVED}, call<ComputeIk>("compute_ik", blind).pose_status);
   ComputeIk::Request without = ikFor({near});
   without.scene_diff = diffWith(objectOperation("box", CollisionObject::REMOVE));
-  EXPECT_EQ(std::vector<std::uint8_t>{ComputeIk::Response::SOLVED}, call<ComputeIk>("compute_ik", without).status);
+  EXPECT_EQ(std::vector<std::uint8_t>{ComputeIk::Response::SOLVED}, call<ComputeIk>("compute_ik", without).pose_status);
 }
 
 TEST_F(InverseKinematicsService, RefusesWrongRequestsInOneLine)
@@ -399,7 +399,7 @@ TEST_F(PlansToPoses, EndAtThePoseAndAreFree)
   const Eigen::Isometry3d goal = moved(tipPose(kStart), {0.0, -0.5, 0.0});
   const auto plan = call<PlanMotion>("plan", planTo({goal}));
   ASSERT_TRUE(plan.success) << plan.message;
-  EXPECT_EQ(PlanMotion::Response::SOLVED, plan.status);
+  EXPECT_EQ(Status::OK, plan.status);
   EXPECT_EQ("", plan.message);
   ASSERT_GE(plan.trajectory.points.size(), 2U);
   const std::vector<std::vector<double>> states = statesAlong(plan.trajectory, 100);
@@ -449,7 +449,7 @@ TEST_F(PlansToPoses, RefuseWrongRequestsInOneLine)
     PlanMotion::Request request = good;
     spoil(request);
     expectRefused<PlanMotion>("plan", request, text);
-    EXPECT_EQ(PlanMotion::Response::BAD_REQUEST, call<PlanMotion>("plan", request).status) << text;
+    EXPECT_EQ(Status::INVALID_REQUEST, call<PlanMotion>("plan", request).status) << text;
   };
   using Request = PlanMotion::Request;
   const auto joint = [](const std::string& name, double position, double tolerance)
@@ -623,7 +623,7 @@ TEST_F(PathsUnderConstraints, AreRefusedInAFrameOfTfThatHangsOnALinkOfTheGroup)
       expectRefused<ComputeCartesianPath>("compute_cartesian_path", lines, fault);
       continue;
     }
-    EXPECT_EQ(PlanMotion::Response::SOLVED, call<PlanMotion>("plan", plan).status);
+    EXPECT_EQ(Status::OK, call<PlanMotion>("plan", plan).status);
     const auto followed = call<ComputeCartesianPath>("compute_cartesian_path", lines);
     EXPECT_EQ(1.0, followed.fraction) << followed.message;
   }

@@ -15,17 +15,21 @@
 #include "gpu_planning_scene/error.h"
 #include "node/kinematics/kinematics_services.h"
 #include "scene/slider_robot.h"
+#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
 /// A scene with the services of its kinematics. tf has the frame `camera`, 0.25 m along x for each second of its stamp.
+/// The node ends while it waits for the frame `awaited`.
 struct KinematicsNode
 {
   SceneStore::Lookup lookup = [this](const StampedFrame& frame) -> Eigen::Isometry3d
   {
     ++lookups;
+    if (frame.name == "awaited")
+      throw ShuttingDown("the lookup was stopped");
     if (frame.name != "camera")
       throw Error("frame '" + frame.name + "' is not known");
     return Eigen::Isometry3d(Eigen::Translation3d(0.25e-9 * static_cast<double>(frame.stamp), 0.0, 0.0));
@@ -67,12 +71,13 @@ class KinematicsOfSlider : public testing::Test
     return request;
   }
 
-  /// The message of the answer, which must be an error.
-  std::string errorFor(const ComputeIk::Request& request)
+  /// The message of the answer, which must be an error with this status.
+  std::string errorFor(const ComputeIk::Request& request, std::uint8_t status = Status::INVALID_REQUEST)
   {
     const ComputeIk::Response response = node_.services.computeIk(request);
     EXPECT_FALSE(response.success);
-    EXPECT_TRUE(response.status.empty());
+    EXPECT_EQ(status, response.status);
+    EXPECT_TRUE(response.pose_status.empty());
     return response.message;
   }
 
@@ -190,6 +195,11 @@ TEST_F(KinematicsOfSlider, ACarriedObjectReachesThePose)
       "frame 'wall' does not move with the robot; name a link, an object that a link carries, or OBJECT/SUBFRAME");
 }
 
+TEST_F(KinematicsOfSlider, ALookupThatIsStoppedIsNoErrorOfTheRequest)
+{
+  EXPECT_EQ(errorFor(requestFor({poseAlongX(0.0, "awaited")}), Status::SHUTTING_DOWN), "the lookup was stopped");
+}
+
 TEST_F(KinematicsOfSlider, StoppingEndsARunningSearch)
 {
   ComputeIk::Request request = requestFor(std::vector<geometry_msgs::PoseStamped>(5, poseAlongX(50.0)));  // too far
@@ -202,8 +212,9 @@ TEST_F(KinematicsOfSlider, StoppingEndsARunningSearch)
   caller.join();
   EXPECT_LT(std::chrono::steady_clock::now() - stopped, std::chrono::seconds(5));
   EXPECT_FALSE(response.success);
-  EXPECT_EQ(response.message.rfind("shutting down: ", 0), 0u) << response.message;
-  EXPECT_EQ(errorFor(requestFor({poseAlongX(0.5)})).rfind("shutting down", 0), 0u);
+  EXPECT_EQ(Status::SHUTTING_DOWN, response.status) << response.message;
+  EXPECT_EQ(errorFor(requestFor({poseAlongX(0.5)}), Status::SHUTTING_DOWN),
+            "shutting down: the request was not answered");
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -37,7 +37,9 @@ TEST(SceneServices, AProcessThatUsesTooMuchMemoryCanStillBeEmptied)
   object.primitives.resize(1);
   object.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
   object.primitives[0].dimensions = {0.1, 0.1, 0.1};
-  EXPECT_NE(std::string::npos, scenes.apply(asked).message.find("limits/memory"));
+  const ApplyPlanningScene::Response refused = scenes.apply(asked);
+  EXPECT_EQ(Status::UNAVAILABLE, refused.status);
+  EXPECT_NE(std::string::npos, refused.message.find("limits/memory")) << refused.message;
   object.primitives.clear();
   object.id = "wall";
   object.operation = CollisionObject::REMOVE;

@@ -95,12 +95,11 @@ class FailingElsewhere : public StateChecker
  public:
   explicit FailingElsewhere(std::shared_ptr<StateChecker> checker) : checker_(std::move(checker)) {}
   void setScene(std::shared_ptr<const PlanningScene> scene) override { checker_->setScene(std::move(scene)); }
-  BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const JointNeighbourhood* around) override
+  BatchResult checkBatch(const StateBatch& batch) override
   {
     if (std::this_thread::get_id() != home_)
       throw std::runtime_error("the device is lost");
-    return checker_->check(states, count, group, around);
+    return checker_->checkBatch(batch);
   }
   SceneReport report(const std::string& group) override { return checker_->report(group); }
   std::string deviceName() const override { return checker_->deviceName(); }

@@ -12,10 +12,10 @@
 #include <ompl/util/Exception.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include "base/seconds_since.h"
 #include "gpu_planning_scene/planning/anytime_batch.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/path_optimizer.h"
-#include "model/seconds_since.h"
 #include "planning/point_robot.h"
 
 namespace gpu_planning_scene::core

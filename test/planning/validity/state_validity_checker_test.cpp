@@ -32,13 +32,12 @@ class RecordingChecker : public StateChecker
   explicit RecordingChecker(std::shared_ptr<const PlanningScene> scene) : checker_(std::move(scene)) {}
 
   void setScene(std::shared_ptr<const PlanningScene> scene) override { checker_.setScene(std::move(scene)); }
-  BatchResult check(const double* states, std::size_t count, const std::string& group,
-                    const JointNeighbourhood* around) override
+  BatchResult checkBatch(const StateBatch& batch) override
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    batches.push_back(count);
-    groups.push_back(group);
-    return checker_.check(states, count, group, around);
+    batches.push_back(batch.count);
+    groups.push_back(batch.group);
+    return checker_.checkBatch(batch);
   }
   SceneReport report(const std::string& group) override { return checker_.report(group); }
   std::string deviceName() const override { return "recorder"; }

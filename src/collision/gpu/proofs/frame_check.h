@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/filter/lanes/lane_scene.h"
+#include "collision/cpu/lanes/lane_scene.h"
 #include "gpu_planning_scene/robot_model.h"
 
 namespace gpu_planning_scene::core

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "collision/filter/lanes/lane_scene.h"
+#include "collision/cpu/lanes/lane_scene.h"
 
 namespace gpu_planning_scene::core
 {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "collision/filter/lanes/lane_scene.h"
+#include "collision/cpu/lanes/lane_scene.h"
 #include "collision/gpu/proofs/proof_names.h"
 #include "collision/gpu/proofs/proof_texels.h"
 #include "collision/gpu/proofs/state_shader.h"

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "collision/filter/lanes/lane_model.h"
-#include "model/text/number_text.h"
+#include "base/text/number_text.h"
+#include "collision/cpu/lanes/lane_model.h"
 
 /// Names and numbers in the generated shader of the proofs, and what several of its parts know of the lane scene.
 namespace gpu_planning_scene::core

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "collision/filter/lanes/lane_scene.h"
+#include "collision/cpu/lanes/lane_scene.h"
 #include "shader_constants.h"
 
 namespace gpu_planning_scene::core

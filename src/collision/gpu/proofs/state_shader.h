@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "collision/filter/lanes/lane_scene.h"
+#include "collision/cpu/lanes/lane_scene.h"
 
 namespace gpu_planning_scene::core
 {

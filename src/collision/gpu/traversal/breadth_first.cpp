@@ -19,8 +19,8 @@ constexpr std::size_t offsetOf(std::size_t counter)
 
 BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definitions)
   : arguments_(folder),
-    scan_(folder, "traversal/level_scan.comp"),
-    expand_(folder, "traversal/level_expand.comp", definitions),
+    sizes_(folder, "traversal/level_sizes.comp"),
+    children_(folder, "traversal/level_children.comp", definitions),
     overlap_(folder, "traversal/level_overlap.comp", definitions, TaskPrograms::Needs::All),
     triangles_(folder, "traversal/level_triangles.comp", definitions, TaskPrograms::Needs::NoTolerance)
 {
@@ -47,7 +47,7 @@ void BreadthFirst::start(BatchLists& lists, const TraversalTask& task)
   reserve(lists.capacity);
   const Program& overlap = overlap_.forTask(task);
   const Program& triangles = triangles_.forTask(task);
-  const std::array<const Program*, 3> level_programs = {&overlap, &scan_, &expand_};
+  const std::array<const Program*, 3> level_programs = {&overlap, &sizes_, &children_};
   if (task.endsEarly())
     overlap.setFloat(LOCATION_TOLERANCE, task.tolerance);
   const std::uint32_t capacity = lists.capacity.node_pairs;
@@ -71,14 +71,14 @@ void BreadthFirst::start(BatchLists& lists, const TraversalTask& task)
     }
     const TexelBuffer& entries = task.solids ? lists.solid_entries : lists.mesh_entries;
     (level == 0 ? entries : lists.node_pairs[level % 2]).bindTexture(UNIT_ENTRIES);
-    scan_.set(LOCATION_IS_LAST, level + 1 == task.levels ? 1U : 0U);
+    sizes_.set(LOCATION_IS_LAST, level + 1 == task.levels ? 1U : 0U);
     masks_.bindStorage(BINDING_A);
     sums_.bindStorage(BINDING_B);
     overlap.dispatchIndirect(lists.counters, offsetOf(COUNTER_ARGUMENTS));
-    scan_.dispatch(1);
+    sizes_.dispatch(1);
     lists.node_pairs[1 - level % 2].buffer().bindStorage(BINDING_C);
     leaf_pairs_.buffer().bindStorage(BINDING_D);
-    expand_.dispatchIndirect(lists.counters, offsetOf(COUNTER_CHUNK_ARGUMENTS));
+    children_.dispatchIndirect(lists.counters, offsetOf(COUNTER_CHUNK_ARGUMENTS));
     triangles.dispatchIndirect(lists.counters, offsetOf(COUNTER_LEAF_ARGUMENTS));
     in_counter = out_counter;
   }

@@ -19,7 +19,7 @@ class BreadthFirst : public GpuTraversal
   void reserve(const ListCapacities& capacity);
 
   ArgumentsKernel arguments_;
-  Program scan_, expand_;
+  Program sizes_, children_;
   TaskPrograms overlap_, triangles_;
   Buffer masks_, sums_;
   TexelBuffer leaf_pairs_;

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/parallel_for.h"
+#include "base/parallel_for.h"
 #include "shader_constants.h"
 
 // Visits each tree from its root, children from left to right. The triangles of a subtree are contiguous in leaf order,

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "collision/exact/forest.h"
 #include "collision/gpu/tree_build/gpu_forest.h"
 #include "collision/gpu/tree_build/gpu_oriented_boxes.h"
+#include "collision/trees/forest.h"
 #include "gpu_planning_scene/shapes.h"
 
 namespace gpu_planning_scene::core

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/exact/forest.h"
+#include "collision/trees/forest.h"
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 

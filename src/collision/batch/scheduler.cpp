@@ -1,0 +1,326 @@
+#include "collision/batch/scheduler.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <shared_mutex>
+#include <thread>
+#include <utility>
+
+#include "base/available_cores.h"
+#include "base/finally.h"
+#include "base/seconds_since.h"
+#include "collision/gpu/problem/placeable_states.h"
+#include "collision/problem/batch_size.h"
+#include "collision/problem/rows_without.h"
+#include "collision/problem/state_validation.h"
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Clock = std::chrono::steady_clock;
+
+// Checking this many states takes less time than starting a thread.
+constexpr std::size_t kFewStates = 256;
+// A core is started for each such number of states, if there are more than kFewStates.
+constexpr std::size_t kStatesPerCore = 32;
+// The caller hears of the progress this often, and devices may join this often.
+constexpr std::chrono::milliseconds kTick{20};
+// The parts of a core.
+constexpr BatchSize::Limits kCoreParts = {0.005, 32, 8, 1024};
+
+/// A state is only for cores if the problem is not valid for it, or if devices cannot place it. With margins, states
+/// outside the joints' limits have no displacement bounds, and the cores report them as not free.
+DeviceRows rowsForDevices(const StateBatch& asked, const Margins* margins, const RobotModel& robot,
+                          const CollisionProblem& problem)
+{
+  const std::size_t width = robot.variables().size();
+  const PlaceableStates placeable(robot);
+  const auto suits_devices = [&](std::size_t row)
+  {
+    const double* const state = asked.states + row * width;
+    return (margins ? margins->within[row] != 0 : isValidFor(problem, state)) && placeable.contains(state);
+  };
+  const std::vector<std::size_t> unsuitable = rowsWithout(asked.count, suits_devices);
+  if (unsuitable.empty() && asked.owner)
+    return {asked.owner, asked.states};
+  const auto copy = std::make_shared<std::vector<double>>(asked.states, asked.states + asked.count * width);
+  DeviceRows rows{copy, copy->data()};
+  if (unsuitable.empty())
+    return rows;
+  rows.only_cores.assign(asked.count, 0);
+  for (const std::size_t row : unsuitable)
+    rows.only_cores[row] = 1;
+  const auto substitute = std::find(rows.only_cores.begin(), rows.only_cores.end(), 0) - rows.only_cores.begin();
+  if (static_cast<std::size_t>(substitute) == asked.count)
+    return {};
+  for (const std::size_t row : unsuitable)
+    std::copy_n(asked.states + static_cast<std::size_t>(substitute) * width, width, copy->data() + row * width);
+  return rows;
+}
+}  // namespace
+
+/// Calls StateBatch::go_on from time to time.
+class Scheduler::Progress
+{
+ public:
+  Progress(const StateBatch& asked, const Batch& batch) : asked_(asked), batch_(batch) {}
+
+  /// Whether a tick has passed since the last one. Throws Cancelled.
+  bool tick()
+  {
+    if (Clock::now() < next_)
+      return false;
+    next_ = Clock::now() + kTick;
+    if (asked_.go_on && !asked_.go_on(batch_.answeredCount()))
+      throw Cancelled();
+    return true;
+  }
+
+ private:
+  const StateBatch& asked_;
+  const Batch& batch_;
+  Clock::time_point next_ = Clock::now() + kTick;
+};
+
+/// Lets devices join a batch, at its start and later.
+class Scheduler::DeviceJoin
+{
+ public:
+  DeviceJoin(Scheduler& scheduler, const StateBatch& asked, std::shared_ptr<Batch> batch)
+    : scheduler_(scheduler), asked_(asked), batch_(std::move(batch))
+  {
+  }
+
+  void invite()
+  {
+    DevicePool& devices = scheduler_.devices_;
+    devices.abandonOverdue();
+    if (is_useless_ || !devices.suits(asked_.group, batch_->waitingCount()))
+      return;
+    if (!task_.robot)
+    {
+      task_ = scheduler_.taskOf(asked_.group);
+      DeviceRows rows = rowsForDevices(asked_, batch_->margins(), *task_.robot, *task_.group);
+      is_useless_ = !rows.states;
+      batch_->setDeviceRows(std::move(rows));
+    }
+    if (!is_useless_ && devices.join(batch_, task_, asked_.group))
+      has_joined_ = true;
+  }
+
+  bool hasJoined() const { return has_joined_; }
+
+ private:
+  Scheduler& scheduler_;
+  const StateBatch& asked_;
+  const std::shared_ptr<Batch> batch_;
+  DeviceTask task_;
+  bool is_useless_ = false;  // devices can check none of the states
+  bool has_joined_ = false;
+};
+
+Scheduler::Scheduler(const CheckerOptions& options, std::vector<std::unique_ptr<DeviceWorker>> devices,
+                     bool device_only)
+  : scene_(options), devices_(std::move(devices), device_only)
+{
+}
+
+void Scheduler::setOnCpu(std::shared_ptr<const PlanningScene> scene)
+{
+  const bool is_other_robot = scene_.scene() && scene && scene->robot != scene_.scene()->robot;
+  scene_.setScene(std::move(scene), !devices_.isDeviceOnly() || devices_.isEmpty());
+  if (is_other_robot)
+    devices_.forgetPaces();
+}
+
+void Scheduler::setScene(std::shared_ptr<const PlanningScene> scene)
+{
+  const std::lock_guard<ChangeGate> lock(gate_);
+  setOnCpu(std::move(scene));
+  if (devices_.isEmpty())
+    return;
+  try
+  {
+    devices_.prepare(taskOf(""));
+  }
+  catch (const std::exception&)
+  {
+    // The next batch brings them the scene.
+  }
+}
+
+void Scheduler::openDevices(std::shared_ptr<const PlanningScene> scene, bool one_suffices)
+{
+  const std::lock_guard<ChangeGate> lock(gate_);
+  setOnCpu(std::move(scene));
+  devices_.open(taskOf(""), one_suffices);
+}
+
+DeviceTask Scheduler::taskOf(const std::string& group)
+{
+  return {scene_.scene()->robot, scene_.problem(""), scene_.problem(group), scene_.deviceProofs(group)};
+}
+
+BatchResult Scheduler::check(const StateBatch& asked)
+{
+  const std::shared_lock<ChangeGate> lock(gate_);
+  const auto& problem = scene_.problem(asked.group);  // throws for an unknown group
+  validateStates(*scene_.scene()->robot, asked.states, asked.count);
+  const auto start = Clock::now();
+  std::optional<Margins> margins;
+  if (asked.around)
+    margins = scene_.margins(*asked.around, asked.states, asked.count, asked.group);
+  const bool by_device = devices_.isDeviceOnly() && !devices_.isEmpty() && asked.count != 0;
+  const bool on_caller = problem->always_colliding || (asked.count <= kFewStates && !by_device);
+  BatchResult result =
+      on_caller ? checkOnCaller(asked, margins ? &*margins : nullptr) : checkTogether(asked, std::move(margins));
+  result.revision = scene_.scene()->revision;
+  result.seconds = secondsSince(start);
+  return result;
+}
+
+BatchResult Scheduler::checkOnCaller(const StateBatch& asked, const Margins* margins)
+{
+  BatchResult result;
+  result.valid.assign(asked.count, 1);
+  result.colliding.assign(asked.count, kNoPair);
+  CpuScene::Core(scene_, asked.group).check(asked.states, {{0, asked.count}}, margins, result);
+  scene_.countBatch(asked.count, 0, asked.group);
+  if (!devices_.isEmpty())
+    noteWork({});
+  return result;
+}
+
+BatchResult Scheduler::checkTogether(const StateBatch& asked, std::optional<Margins> margins)
+{
+  const auto batch = std::make_shared<Batch>(asked.count, std::move(margins), availableCores());
+  const Finally close([&] { batch->close(); });
+  DeviceJoin devices(*this, asked, batch);
+  Progress progress(asked, *batch);
+  bool has_turn = false;
+  const Finally give_turn(
+      [&]
+      {
+        if (has_turn)
+          turn_.give();
+      });
+  if (!devices_.isEmpty())
+    devices_.noteProofs(asked.group, scene_.proofStage(asked.group));
+  if (!devices_.isEmpty() && devices_.isDeviceOnly())
+  {
+    while (!(has_turn = turn_.takeFor(kTick)))
+      progress.tick();
+    while (!devices_.waitFor(kTick))
+      progress.tick();
+    batch->letCoresHelp(false);  // before a device joins: it may already leave in `invite`
+    devices.invite();
+    if (!devices.hasJoined())
+      batch->letCoresHelp(true);
+  }
+  const auto start = Clock::now();
+  runCores(*batch, asked, devices, progress);
+  const double seconds = secondsSince(start);
+  batch->close();
+  BatchResult result = batch->takeResult();
+  scene_.countBatch(asked.count, result.device_states, asked.group);
+  if (devices_.isEmpty())
+    return result;
+  devices_.learn(*batch, asked.group, asked.count - result.device_states, devices_.isDeviceOnly() ? 0.0 : seconds);
+  noteWork(batch->work());
+  if (!devices.hasJoined() && devices_.isUnusable())
+    ++batches_on_cpu_;
+  return result;
+}
+
+/// Checks parts on all cores until the batch has ended. The calling thread is one of the cores.
+void Scheduler::runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devices, Progress& progress)
+{
+  const auto orFail = [&batch](const auto& act)
+  {
+    try
+    {
+      act();
+    }
+    catch (...)
+    {
+      batch.fail(std::current_exception());
+    }
+  };
+  const auto tick = [&]
+  {
+    if (progress.tick() && !devices_.isEmpty())
+      devices.invite();
+  };
+  const auto work = [&](bool is_caller)
+  {
+    std::optional<CpuScene::Core> core;
+    BatchSize size(kCoreParts);
+    std::vector<StateRange> part;
+    for (batch.takeForCore(size.size(), part); !part.empty(); batch.takeForCore(size.size(), part))
+    {
+      if (!core)
+        core.emplace(scene_, asked.group);
+      const auto start = Clock::now();
+      const std::size_t states = core->check(asked.states, part, batch.margins(), batch.result());
+      batch.answered(part);
+      size.took(states, secondsSince(start));
+      if (is_caller)
+        tick();
+    }
+  };
+  for (bool is_first = true; !batch.isClosed() && !batch.isComplete(); is_first = false)
+  {
+    std::vector<std::thread> helpers;
+    try
+    {
+      const std::size_t wanted = std::min(availableCores(), batch.availableForCores() / kStatesPerCore);
+      while (helpers.size() + 1 < wanted)
+        helpers.emplace_back([&] { orFail([&] { work(false); }); });
+    }
+    catch (const std::exception&)
+    {
+      // No thread, or no memory for one. The threads that could be started do all the work.
+    }
+    orFail(
+        [&]
+        {
+          if (is_first && !devices_.isEmpty() && !devices.hasJoined())
+            devices.invite();
+          work(true);
+        });
+    for (std::thread& helper : helpers)
+      helper.join();
+    batch.waitForCores(Clock::now() + kTick);
+    if (!batch.isClosed())
+      orFail(tick);
+  }
+}
+
+void Scheduler::noteWork(const GpuWork& work)
+{
+  const std::lock_guard<std::mutex> lock(work_mutex_);
+  last_work_ = work;
+}
+
+SceneReport Scheduler::report(const std::string& group)
+{
+  const std::shared_lock<ChangeGate> lock(gate_);
+  return scene_.report(group);
+}
+
+DeviceHistory Scheduler::history() const
+{
+  DeviceHistory history = devices_.history();
+  history.batches_on_cpu = batches_on_cpu_;
+  return history;
+}
+
+GpuWork Scheduler::lastWork() const
+{
+  const std::lock_guard<std::mutex> lock(work_mutex_);
+  return last_work_;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+
+namespace gpu_planning_scene::core
+{
+/// Only one thread at a time has the turn. In place of std::timed_mutex, whose timed functions the thread sanitizer of
+/// GCC 12 does not know.
+class Turn
+{
+ public:
+  /// Waits for the turn, at most for this time. Returns whether the caller has it.
+  bool takeFor(std::chrono::milliseconds time)
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    if (!free_.wait_for(lock, time, [this] { return !is_taken_; }))
+      return false;
+    is_taken_ = true;
+    return true;
+  }
+  void give()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_taken_ = false;
+    free_.notify_one();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable free_;
+  bool is_taken_ = false;
+};
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,12 @@
+// The lane kernel for AVX-512. The code between the pragmas must not call functions that other files define inline: the
+// linker may take this file's copy for all of them, and machines without AVX-512 would stop there.
+#include "collision/cpu/lanes/lane_model.h"
+
+#ifdef __x86_64__
+#pragma GCC push_options
+#pragma GCC target("avx512f,avx512vl,avx512dq,avx2,fma")
+#define GPS_AVX
+#define GPS_LANE_KERNEL proveAvx512
+#include "collision/cpu/lanes/lane_kernel_body.h"
+#pragma GCC pop_options
+#endif

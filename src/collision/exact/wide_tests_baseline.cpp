@@ -1,6 +1,0 @@
-// The tests of wide trees for the instruction set that all code of the project uses.
-#include "collision/exact/wide_tests.h"
-#define GPS_OVERLAP_TEST overlapBaseline
-#define GPS_NEAR_TRIANGLES_TEST nearTrianglesBaseline
-#include "collision/exact/wide_overlap_body.h"
-#include "collision/exact/wide_triangles_body.h"

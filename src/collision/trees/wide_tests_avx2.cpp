@@ -1,0 +1,14 @@
+// The tests of wide trees for AVX2. The code between the pragmas must not call functions that other files define
+// inline: the linker may take this file's copy for all of them, and machines without AVX2 would stop there.
+#include "collision/trees/wide_tests.h"
+
+#ifdef __x86_64__
+#pragma GCC push_options
+#pragma GCC target("avx2,fma")
+#define GPS_AVX
+#define GPS_OVERLAP_TEST overlapAvx2
+#define GPS_NEAR_TRIANGLES_TEST nearTrianglesAvx2
+#include "collision/trees/wide_overlap_body.h"
+#include "collision/trees/wide_triangles_body.h"
+#pragma GCC pop_options
+#endif
