@@ -238,7 +238,7 @@ BatchResult Scheduler::checkTogether(const StateBatch& asked, std::optional<Marg
 /// Checks parts on all cores until the batch has ended. The calling thread is one of the cores.
 void Scheduler::runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devices, Progress& progress)
 {
-  const auto orFail = [&batch](const auto& act)
+  const auto or_fail = [&batch](const auto& act)
   {
     try
     {
@@ -278,13 +278,13 @@ void Scheduler::runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devi
     {
       const std::size_t wanted = std::min(availableCores(), batch.availableForCores() / kStatesPerCore);
       while (helpers.size() + 1 < wanted)
-        helpers.emplace_back([&] { orFail([&] { work(false); }); });
+        helpers.emplace_back([&] { or_fail([&] { work(false); }); });
     }
     catch (const std::exception&)
     {
       // No thread, or no memory for one. The threads that could be started do all the work.
     }
-    orFail(
+    or_fail(
         [&]
         {
           if (is_first && !devices_.isEmpty() && !devices.hasJoined())
@@ -295,7 +295,7 @@ void Scheduler::runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devi
       helper.join();
     batch.waitForCores(Clock::now() + kTick);
     if (!batch.isClosed())
-      orFail(tick);
+      or_fail(tick);
   }
 }
 
