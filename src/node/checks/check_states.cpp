@@ -5,6 +5,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/joint_limits.h"
 #include "model/seconds_since.h"
+#include "model/text/one_line.h"
 #include "node/checks/check_services.h"
 #include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"

@@ -2,6 +2,8 @@
 
 #include <boost/make_shared.hpp>
 
+#include "model/text/one_line.h"
+
 namespace gpu_planning_scene::core
 {
 namespace

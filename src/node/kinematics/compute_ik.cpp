@@ -7,6 +7,7 @@
 #include "model/full_states.h"
 #include "model/joint_limits.h"
 #include "model/seconds_since.h"
+#include "model/text/one_line.h"
 #include "node/checks/state_warnings.h"
 #include "node/endpoints/respond.h"
 #include "node/kinematics/kinematics_services.h"
