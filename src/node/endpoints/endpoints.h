@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <string>
 #include <thread>
@@ -11,6 +12,7 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include "gpu_planning_scene/error.h"
 #include "node/endpoints/bounded_message.h"
 #include "node/endpoints/diagnostics.h"
 #include "node/endpoints/respond.h"
