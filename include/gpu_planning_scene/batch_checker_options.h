@@ -42,9 +42,9 @@ struct DeviceHistory
 
 struct BatchCheckerOptions : CheckerOptions
 {
-  /// "auto" (the first hardware device, or software if there is none), "software", an index (Device::index), a part of
-  /// a renderer's name, several of these ("0+1"), or "all" (all hardware devices that can be opened; without any, like
-  /// "auto").
+  /// "auto" (the first hardware device; without any, the CPU, or a software renderer if device_only is set),
+  /// "software", an index (Device::index), a part of a renderer's name, several of these ("0+1"), or "all" (all
+  /// hardware devices that can be opened; without any, like "auto").
   std::string device = "auto";
   Traversal traversal = Traversal::WorkQueue;
   /// The most states that go to a device at once. It gets fewer if so many would take it more than 50 ms, overflow its
@@ -52,7 +52,7 @@ struct BatchCheckerOptions : CheckerOptions
   /// Traversal::BreadthFirst), plus 64 bytes for each shape of the robot in each state.
   std::size_t max_batch = 131072;
   /// True: the devices check all states that they can. False: the cores of the CPU check states too, and all states of
-  /// small batches.
+  /// small batches; but with a software renderer, which runs on the cores itself, it is as with true.
   bool device_only = false;
   DeviceLimits limits;
   std::string shader_folder;  ///< empty: the installed shaders, or those of the source tree (see shaderFolder())

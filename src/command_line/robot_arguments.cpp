@@ -33,16 +33,17 @@ std::vector<Option> robotOptions()
 
 std::vector<Option> deviceOptions()
 {
-  return {
-      {"--device", "DEVICE",
-       "auto (default): a GPU, else a software device;\nsoftware; an index; part of a renderer's name;\n"
-       "several of these (0+1); all: all GPUs; or cpu: double\nprecision without a GL device"},
-      {"--traversal", "NAME", "work_queue (default) or breadth_first; cpu has its own"},
-      {"--device-only", "", "the device checks all states that it can; else the cores\nof the CPU check states too"},
-      {"--max-batch", "N", "most states that go to the device at once (default 131072)"},
-      {"--tolerance", "METRES",
-       "0 (default): exact. Above 0: to save time, bodies within this\ndistance (beyond their padding) may be "
-       "reported as colliding"}};
+  return {{"--device", "DEVICE",
+           "auto (default): a GPU, else the CPU; software (llvmpipe);\nan index; part of a renderer's name;\n"
+           "several of these (0+1); all: all GPUs; or cpu: double\nprecision without a GL device"},
+          {"--traversal", "NAME", "work_queue (default) or breadth_first; cpu has its own"},
+          {"--device-only", "",
+           "the device checks all states that it can, and auto takes\nllvmpipe if there is no GPU; else cores check "
+           "states too"},
+          {"--max-batch", "N", "most states that go to the device at once (default 131072)"},
+          {"--tolerance", "METRES",
+           "0 (default): exact. Above 0: to save time, bodies within this\ndistance (beyond their padding) may be "
+           "reported as colliding"}};
 }
 
 std::map<std::string, std::string> packageFoldersFrom(const CommandLine& arguments)

@@ -5,28 +5,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include "collision/batch/device_rows.h"
 #include "collision/bounds/displacement_bounds.h"
 #include "collision/problem/state_range.h"
 #include "gpu_planning_scene/batch_checker_options.h"
 
 namespace gpu_planning_scene::core
 {
-/// The states of a batch as devices read them.
-struct DeviceRows
-{
-  std::shared_ptr<const void> owner;  ///< keeps the states alive: a device that hangs may read them after the call
-  const double* states = nullptr;
-  /// One per state; 1: only cores can check it, so devices read another state in its place. Empty: devices can check
-  /// all states.
-  std::vector<std::uint8_t> only_cores = {};
-};
-
-/// What a device has done in a batch.
+/// The work of a device in a batch, and its time.
 struct DevicePace
 {
   std::size_t states = 0;      ///< that it has brought
@@ -94,7 +84,7 @@ class Batch
   /// The number of states that no worker has taken.
   std::size_t waitingCount() const;
   std::size_t answeredCount() const;
-  /// What the device has done up to now.
+  /// The work and the time of the device up to now.
   DevicePace paceOf(std::size_t device) const;
   bool isComplete() const { return answeredCount() == count(); }
   /// Ends the batch: no further part is taken, and no device writes answers. Waits for devices that are writing.

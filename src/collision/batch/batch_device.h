@@ -11,7 +11,7 @@ class DeviceParts;
 class LaneScene;
 struct CollisionProblem;
 
-/// What a device checks. Immutable.
+/// The robot and the scene that a device checks. Immutable.
 struct DeviceTask
 {
   std::shared_ptr<const RobotModel> robot;

@@ -87,12 +87,16 @@ DevicePool::Paces DevicePool::pacesOf(const std::string& group) const
   return paces;
 }
 
-bool DevicePool::pays(const DeviceWorker& worker, const DeviceMean& device, double cores, std::size_t waiting) const
+bool DevicePool::isDeviceOnly() const
 {
-  if (device_only_)
+  return device_only_ || std::any_of(
+                             devices_.begin(), devices_.end(), [](const auto& device) { return device->isSoftware(); });
+}
+
+bool DevicePool::pays(const DeviceMean& device, double cores, std::size_t waiting) const
+{
+  if (isDeviceOnly())
     return waiting != 0;
-  if (worker.isSoftware())
-    return false;
   return device.rate == 0.0 || cores == 0.0 ? waiting >= kLeastForDevice
                                             : static_cast<double>(waiting) > kLatencies * cores * device.latency;
 }
@@ -101,8 +105,7 @@ bool DevicePool::suits(const std::string& group, std::size_t waiting) const
 {
   const Paces paces = pacesOf(group);
   for (std::size_t i = 0; i < devices_.size(); ++i)
-    if (devices_[i]->isFree() &&
-        (devices_[i]->isClosed() || pays(*devices_[i], paces.devices[i], paces.cores, waiting)))
+    if (devices_[i]->isFree() && (devices_[i]->isClosed() || pays(paces.devices[i], paces.cores, waiting)))
       return true;
   return false;
 }
@@ -117,12 +120,12 @@ bool DevicePool::join(const std::shared_ptr<Batch>& batch, const DeviceTask& tas
   for (std::size_t i = 0; i < devices_.size(); ++i)
   {
     const double rate = paces.devices[i].rate;
-    const double share = device_only_  ? kAhead / static_cast<double>(devices_.size())
-                         : rate == 0.0 ? kFirstShare
-                                       : kAhead * rate / together;
+    const double share = isDeviceOnly() ? kAhead / static_cast<double>(devices_.size())
+                         : rate == 0.0  ? kFirstShare
+                                        : kAhead * rate / together;
     if (batch->hasJoined(i))
       continue;
-    if (pays(*devices_[i], paces.devices[i], paces.cores, batch->waitingCount()))
+    if (pays(paces.devices[i], paces.cores, batch->waitingCount()))
       has_joined = devices_[i]->start(batch, task, i, share) || has_joined;
     else if (devices_[i]->isClosed())
       devices_[i]->prepare(task);

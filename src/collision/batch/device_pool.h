@@ -16,9 +16,7 @@
 namespace gpu_planning_scene::core
 {
 /// The devices of a checker. A device joins a batch if the cores alone would need clearly longer than the device needs
-/// for its first answer, as far as the last batches of the same group show. A device that runs on the cores (a software
-/// renderer) is slower than they are in each scene of the benchmark, so it does not join a batch that cores can check.
-/// Thread-safe.
+/// for its first answer, as far as the last batches of the same group show. Thread-safe.
 class DevicePool
 {
  public:
@@ -27,7 +25,9 @@ class DevicePool
   ~DevicePool();
 
   bool isEmpty() const { return devices_.empty(); }
-  bool isDeviceOnly() const { return device_only_; }
+  /// Whether cores check only what devices cannot: because this was asked for, or because a device is a software
+  /// renderer, which runs on the cores itself.
+  bool isDeviceOnly() const;
 
   /// Opens all devices, and waits for them. Throws the first error if a device cannot be opened; with `one_suffices`
   /// only if none can be.
@@ -73,7 +73,7 @@ class DevicePool
   };
 
   Paces pacesOf(const std::string& group) const;
-  bool pays(const DeviceWorker& worker, const DeviceMean& device, double cores, std::size_t waiting) const;
+  bool pays(const DeviceMean& device, double cores, std::size_t waiting) const;
 
   const bool device_only_;
   const std::vector<std::unique_ptr<DeviceWorker>> devices_;

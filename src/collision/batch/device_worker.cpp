@@ -85,7 +85,7 @@ struct DeviceWorker::Shared
   bool was_open = false;
   DeviceHistory history;
   std::string name;
-  bool is_software = true;
+  bool is_software = false;
   std::string fault;
   std::thread thread;
 };

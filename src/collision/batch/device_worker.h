@@ -54,7 +54,7 @@ class DeviceWorker
   std::string name() const;
   /// Whether the device has not been opened yet, or has failed and has not been opened again.
   bool isClosed() const;
-  /// True until the device has been opened.
+  /// Whether the device runs on the cores of the CPU. False until it has been opened.
   bool isSoftware() const;
   std::string fault() const;
   /// `on_cpu`: the device cannot be used now, because of an error.

@@ -24,15 +24,7 @@ class GpuParts : public PartSource
     const StateRange states = parts_.beginAnswer(brought);
     if (states.count == 0)
       return;
-    BatchResult& result = parts_.result();
-    for (std::size_t i = 0; i < states.count; ++i)
-      if (isHit(verdicts[i]))
-      {
-        result.valid[states.begin + i] = 0;
-        result.colliding[states.begin + i] = checker_.bodiesOf(verdicts[i]);
-      }
-      else if (!isFree(verdicts[i]))
-        undecided_.push_back(states.begin + i);
+    checker_.write(states, verdicts, parts_.result(), undecided_);
     parts_.endAnswer(states, undecided_);
   }
 

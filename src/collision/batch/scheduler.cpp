@@ -10,9 +10,8 @@
 #include "base/available_cores.h"
 #include "base/finally.h"
 #include "base/seconds_since.h"
-#include "collision/gpu/problem/placeable_states.h"
+#include "collision/batch/device_rows.h"
 #include "collision/problem/batch_size.h"
-#include "collision/problem/rows_without.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 
@@ -30,36 +29,6 @@ constexpr std::size_t kStatesPerCore = 32;
 constexpr std::chrono::milliseconds kTick{20};
 // The parts of a core.
 constexpr BatchSize::Limits kCoreParts = {0.005, 32, 8, 1024};
-
-/// A state is only for cores if the problem is not valid for it, or if devices cannot place it. With margins, states
-/// outside the joints' limits have no displacement bounds, and the cores report them as not free.
-DeviceRows rowsForDevices(const StateBatch& asked, const Margins* margins, const RobotModel& robot,
-                          const CollisionProblem& problem)
-{
-  const std::size_t width = robot.variables().size();
-  const PlaceableStates placeable(robot);
-  const auto suits_devices = [&](std::size_t row)
-  {
-    const double* const state = asked.states + row * width;
-    return (margins ? margins->within[row] != 0 : isValidFor(problem, state)) && placeable.contains(state);
-  };
-  const std::vector<std::size_t> unsuitable = rowsWithout(asked.count, suits_devices);
-  if (unsuitable.empty() && asked.owner)
-    return {asked.owner, asked.states};
-  const auto copy = std::make_shared<std::vector<double>>(asked.states, asked.states + asked.count * width);
-  DeviceRows rows{copy, copy->data()};
-  if (unsuitable.empty())
-    return rows;
-  rows.only_cores.assign(asked.count, 0);
-  for (const std::size_t row : unsuitable)
-    rows.only_cores[row] = 1;
-  const auto substitute = std::find(rows.only_cores.begin(), rows.only_cores.end(), 0) - rows.only_cores.begin();
-  if (static_cast<std::size_t>(substitute) == asked.count)
-    return {};
-  for (const std::size_t row : unsuitable)
-    std::copy_n(asked.states + static_cast<std::size_t>(substitute) * width, width, copy->data() + row * width);
-  return rows;
-}
 }  // namespace
 
 /// Calls StateBatch::go_on from time to time.

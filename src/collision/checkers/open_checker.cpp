@@ -31,11 +31,27 @@ std::vector<std::string> devicesOf(const std::string& selection)
   return devices;
 }
 
+namespace
+{
+/// Whether the cores are the better choice for "auto" and "all": there are devices, but no GPU among them. A software
+/// renderer runs on the cores, and is slower than their own checks in each scene of the benchmark.
+bool prefersCores(const BatchCheckerOptions& options)
+{
+  if (options.device_only || (options.device != "auto" && options.device != "all"))
+    return false;
+  const std::vector<Device> devices = listDevices();
+  return !devices.empty() &&
+         std::all_of(devices.begin(), devices.end(), [](const Device& device) { return device.software; });
+}
+}  // namespace
+
 std::unique_ptr<Scheduler> schedulerOf(const BatchCheckerOptions& options, const OpenDevice& open)
 {
   if (options.max_batch == 0)
     throw Error("max_batch is 0; it must be at least 1");
   std::vector<std::unique_ptr<DeviceWorker>> devices;
+  if (prefersCores(options))
+    return std::make_unique<Scheduler>(options, std::move(devices), false);
   for (const std::string& device : devicesOf(options.device))
   {
     BatchCheckerOptions its_options = options;

@@ -231,6 +231,19 @@ BodyPair GpuChecker::bodiesOf(std::uint32_t hit) const
   return {std::min(first, second), std::max(first, second)};
 }
 
+void GpuChecker::write(const StateRange& states, const std::uint32_t* verdicts, BatchResult& result,
+                       std::vector<std::size_t>& undecided) const
+{
+  for (std::size_t i = 0; i < states.count; ++i)
+    if (isHit(verdicts[i]))
+    {
+      result.valid[states.begin + i] = 0;
+      result.colliding[states.begin + i] = bodiesOf(verdicts[i]);
+    }
+    else if (!isFree(verdicts[i]))
+      undecided.push_back(states.begin + i);
+}
+
 void GpuChecker::check(const double* states, std::size_t count, BatchResult& result, const Margins* margins)
 {
   const std::size_t width = robot_->variables().size();
@@ -276,14 +289,7 @@ class AllStates : public PartSource
   void bring(const StateRange& states, const std::uint32_t* verdicts, const GpuWork& /*work*/) override
   {
     brought_ += states.count;
-    for (std::size_t i = 0; i < states.count; ++i)
-      if (isHit(verdicts[i]))
-      {
-        result_.valid[states.begin + i] = 0;
-        result_.colliding[states.begin + i] = checker_.bodiesOf(verdicts[i]);
-      }
-      else if (!isFree(verdicts[i]))
-        undecided_.push_back(states.begin + i);
+    checker_.write(states, verdicts, result_, undecided_);
   }
 
   std::size_t brought() const { return brought_; }

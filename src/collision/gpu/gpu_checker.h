@@ -55,8 +55,10 @@ class GpuChecker
   /// variables, each in PlaceableStates. `margins`: for these states and the selected pairs; null: none.
   void check(const double* states, PartSource& parts, const Margins* margins = nullptr);
 
-  /// The bodies of a verdict that is a hit, in ascending order.
-  BodyPair bodiesOf(std::uint32_t hit) const;
+  /// Writes the verdicts of states that a PartSource has got: 0 and the pair for each one that collides. Adds the
+  /// undecided ones to `undecided`. Leaves the rows of the others as they are.
+  void write(const StateRange& states, const std::uint32_t* verdicts, BatchResult& result,
+             std::vector<std::size_t>& undecided) const;
 
   /// Checks `count` states, whatever their values are, and decides undecided ones on the CPU. Fills the result except
   /// for revision and seconds.
@@ -76,6 +78,8 @@ class GpuChecker
 
  private:
   using LinkPoses = UploadedPoses::LinkPoses;
+  /// The bodies of a verdict that is a hit, in ascending order.
+  BodyPair bodiesOf(std::uint32_t hit) const;
   void release();
   void restore();
   void makeTraversal();

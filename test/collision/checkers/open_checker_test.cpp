@@ -1,5 +1,6 @@
 // A program that needs answers and not a certain device gets right answers when its device fails, and one warning.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
@@ -103,6 +104,30 @@ TEST_F(OpenChecker, ADeviceThatBuildsWrongTreesAtTheStartIsReplacedByTheCpu)
   expectRight(*checker, changed);
   EXPECT_EQ(checker->deviceName(), "CPU");
   expectWarning("no device can be used", "built wrong trees");
+}
+
+/// llvmpipe is slower than the cores that it runs on.
+TEST_F(OpenChecker, WithoutAGpuTheCpuAnswersUnlessASoftwareDeviceIsNamed)
+{
+  const std::vector<Device> devices = listDevices();
+  if (devices.empty() ||
+      !std::all_of(devices.begin(), devices.end(), [](const Device& device) { return device.software; }))
+    GTEST_SKIP() << "needs a machine with a software device and without a GPU";
+  BatchCheckerOptions options;
+  const auto warn = [this](const std::string& line) { warnings_.push_back(line); };
+  const auto by_default = openChecker(test_.scene, options, warn);
+  EXPECT_EQ(by_default->deviceName(), "CPU");
+  EXPECT_EQ(by_default->deviceWarning(), "");
+  EXPECT_EQ(by_default->check(states_.data(), kCount).device_states, 0U);
+  options.device = "software";
+  const auto by_name = openChecker(test_.scene, options, warn);
+  EXPECT_EQ(by_name->deviceName(), devices.front().renderer);
+  for (const std::size_t count : {std::size_t(1), kCount})
+  {
+    const BatchResult result = by_name->check(states_.data(), count);
+    EXPECT_EQ(result.device_states + result.undecided_states, count);
+  }
+  EXPECT_TRUE(warnings_.empty());
 }
 
 TEST_F(OpenChecker, ADeviceThatTheUserHasNamedIsNotReplaced)
