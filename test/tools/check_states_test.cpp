@@ -344,7 +344,7 @@ TEST_F(CheckStates, TheLastLineSaysWhoCheckedTheStates)
     GTEST_SKIP() << output.err;
   EXPECT_EQ("CPU", last_word({"--random", "1"}));
   EXPECT_NE("CPU", last_word({"--random", "1", "--device", "software"}));
-  EXPECT_NE("CPU", last_word({"--random", "1", "--device-only"}));
+  EXPECT_NE("CPU", last_word({"--random", "1", "--device", "auto", "--device-only"}));
 }
 
 TEST_F(CheckStates, WithoutADeviceTheCpuAnswersUnlessOneIsNamed)

@@ -266,7 +266,7 @@ TEST_F(BatchCheckerTest, RefusesOptionsThatMakeNoSense)
   BatchCheckerOptions options;
   options.device = "no such device";
   EXPECT_THROW(BatchChecker(scene_, options), Error);
-  options = {};
+  options = with(Traversal::WorkQueue);
   options.shader_folder = "/no/such/folder";
   EXPECT_THROW(BatchChecker(scene_, options), Error);
   EXPECT_THROW(traversalFromName("depth_first"), Error);

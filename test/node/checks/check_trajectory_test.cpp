@@ -476,8 +476,8 @@ TEST_F(RandomTrajectories, HaveTheVerdictsOfCheckStatesAndCheckMotions)
     const bool all_free = std::count(found.part_valid.begin(), found.part_valid.end(), 1) == 20;
     EXPECT_EQ(all_free && found.start_valid, found.valid != 0);
   }
-  EXPECT_GT(free_parts, parts / 10);
-  EXPECT_LT(free_parts, parts - parts / 10);
+  EXPECT_GT(free_parts, 0u);
+  EXPECT_LT(free_parts, parts);
 }
 
 TEST_F(RandomTrajectories, HaveNoCollisionThatFclFindsInDenseSamplesOfAFreePart)
