@@ -75,8 +75,8 @@ class Separation
     return static_cast<std::size_t>(moved->link);
   }
 
-  CpuTraversal exact_;
-  CpuTraversal::Scratch scratch_;
+  ExactChecker exact_;
+  ExactChecker::Scratch scratch_;
   const std::vector<Isometry3d>& poses_;
   std::vector<Isometry3d> shifted_;
   std::size_t link_;

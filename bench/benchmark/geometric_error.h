@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "support/fcl_peer.h"
 #include "support/test_scenes.h"
 
@@ -34,8 +34,8 @@ class GeometricError
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;
   std::shared_ptr<const CpuForest> forest_;
-  CpuTraversal exact_;
-  CpuTraversal::Scratch scratch_;
+  ExactChecker exact_;
+  ExactChecker::Scratch scratch_;
   FclPeer fcl_;
 };
 }  // namespace gpu_planning_scene::core::benchmark

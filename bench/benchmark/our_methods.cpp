@@ -57,14 +57,14 @@ class CpuMethod : public CheckerMethod
   WorkPerState work(const double* states, std::size_t count) override
   {
     const RobotModel& robot = *scene_->robot;
-    const auto traversal = ForestCache().traversalOf(
+    const auto exact = ForestCache().exactCheckerOf(
         std::make_shared<const CollisionProblem>(ProblemMaker(CheckerOptions()).make(*scene_, "", nullptr)));
-    CpuTraversal::Scratch scratch;
+    ExactChecker::Scratch scratch;
     std::vector<Eigen::Isometry3d> poses(robot.links().size());
     for (std::size_t i = 0; i < count; ++i)
     {
       robot.linkPoses(states + i * robot.variables().size(), poses.data());
-      traversal->firstCollision(poses.data(), scratch);
+      exact->firstCollision(poses.data(), scratch);
     }
     WorkPerState work;
     work.node_visits = static_cast<double>(scratch.pair.steps) / static_cast<double>(count);

@@ -4,7 +4,7 @@
 #include <random>
 #include <set>
 
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core::benchmark
@@ -33,8 +33,8 @@ void PairwisePeer::disableDefaultPairs(const RobotModel& robot)
 {
   constexpr std::size_t kStates = 2000;
   constexpr std::size_t kAlways = kStates * 95 / 100;
-  const CpuTraversal exact(problem_, std::make_shared<const Forest>(buildBinnedSah(problem_->tessellations)));
-  CpuTraversal::Scratch scratch;
+  const ExactChecker exact(problem_, std::make_shared<const Forest>(buildBinnedSah(problem_->tessellations)));
+  ExactChecker::Scratch scratch;
   std::set<BodyPair> truly;
   std::vector<std::size_t> collisions(self_pairs_.size());
   std::mt19937_64 generator(1);

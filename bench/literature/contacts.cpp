@@ -14,7 +14,7 @@ constexpr double kReach = 3.0;  // metres
 
 Contact contactOn(const Path& path, const ExactPair& exact)
 {
-  CpuTraversal::Scratch scratch;
+  ExactChecker::Scratch scratch;
   const auto at = [&](double distance)
   {
     Isometry3d pose = path.start;

@@ -17,20 +17,20 @@ std::shared_ptr<const CollisionProblem> pairProblem(const Shape& a, const Shape&
 }
 
 ExactPair::ExactPair(std::shared_ptr<const CollisionProblem> problem)
-  : traversal_(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)))
+  : exact_(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)))
 {
 }
 
-bool ExactPair::collides(const Eigen::Isometry3d& b_in_a, CpuTraversal::Scratch& scratch) const
+bool ExactPair::collides(const Eigen::Isometry3d& b_in_a, ExactChecker::Scratch& scratch) const
 {
-  return traversal_.firstCollision(&b_in_a, scratch).has_value();
+  return exact_.firstCollision(&b_in_a, scratch).has_value();
 }
 
 std::vector<std::uint8_t> ExactPair::collide(const std::vector<Eigen::Isometry3d>& b_in_a) const
 {
   std::vector<std::uint8_t> answers(b_in_a.size());
   parallelFor(b_in_a.size(), 16,
-              [&, scratch = CpuTraversal::Scratch()](std::size_t begin, std::size_t end) mutable
+              [&, scratch = ExactChecker::Scratch()](std::size_t begin, std::size_t end) mutable
               {
                 for (std::size_t i = begin; i < end; ++i)
                   answers[i] = collides(b_in_a[i], scratch) ? 1 : 0;

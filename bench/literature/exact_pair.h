@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/shapes.h"
 
@@ -21,11 +21,11 @@ class ExactPair
  public:
   explicit ExactPair(std::shared_ptr<const CollisionProblem> problem);
   /// `b_in_a`: the pose of b in the frame of a. Thread-safe if each thread has its own scratch.
-  bool collides(const Eigen::Isometry3d& b_in_a, CpuTraversal::Scratch& scratch) const;
+  bool collides(const Eigen::Isometry3d& b_in_a, ExactChecker::Scratch& scratch) const;
   /// One byte for each pose, on all cores: 1 for a collision.
   std::vector<std::uint8_t> collide(const std::vector<Eigen::Isometry3d>& b_in_a) const;
 
  private:
-  CpuTraversal traversal_;
+  ExactChecker exact_;
 };
 }  // namespace gpu_planning_scene::core::literature

@@ -17,7 +17,7 @@ class ExactCpu : public PosewiseMethod
   bool collides(const Eigen::Isometry3d& b_in_a) override { return pair_.collides(b_in_a, scratch_); }
 
   ExactPair pair_;
-  CpuTraversal::Scratch scratch_;
+  ExactChecker::Scratch scratch_;
 };
 
 /// The checker for two meshes on the device. The CPU decides the poses that the device leaves undecided.

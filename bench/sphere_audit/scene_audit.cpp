@@ -5,7 +5,7 @@
 
 #include "benchmark/geometric_error.h"
 #include "collision/bounds/problem_maker.h"
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/trees/binned_sah.h"
 
 namespace gpu_planning_scene::core::benchmark
@@ -36,8 +36,8 @@ class CollidingPairs
  private:
   PlanningScene scene_;
   std::shared_ptr<const CollisionProblem> problem_;
-  CpuTraversal exact_;
-  CpuTraversal::Scratch scratch_;
+  ExactChecker exact_;
+  ExactChecker::Scratch scratch_;
 };
 
 /// Finds the causes of wrong answers in one scene. Each body is a link or an object of the world.

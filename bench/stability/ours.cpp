@@ -7,7 +7,7 @@
 #include "base/parallel_for.h"
 #include "collision/cpu/lanes/lane_buffers.h"
 #include "collision/cpu/lanes/lane_kernel.h"
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/trees/binned_sah.h"
 
@@ -181,14 +181,14 @@ struct Ours::Impl
 
   static void appendExact(const Part& part, std::vector<std::uint8_t>& answers)
   {
-    const CpuTraversal traversal(part.problem,
-                                 std::make_shared<const Forest>(buildBinnedSah(part.problem->tessellations)));
-    CpuTraversal::Scratch scratch;
+    const core::ExactChecker exact(part.problem,
+                                   std::make_shared<const Forest>(buildBinnedSah(part.problem->tessellations)));
+    core::ExactChecker::Scratch scratch;
     std::vector<Eigen::Isometry3d> poses(part.linkCount());
     for (std::size_t i = 0; i < part.count; ++i)
     {
       part.linkPoses(i, poses.data());
-      answers.push_back(traversal.firstCollision(poses.data(), scratch) ? 1 : 0);
+      answers.push_back(exact.firstCollision(poses.data(), scratch) ? 1 : 0);
     }
   }
 

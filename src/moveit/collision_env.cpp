@@ -5,11 +5,11 @@
 #include <optional>
 #include <utility>
 
-#include "moveit/collision_query.h"
-#include "moveit/continuous_check.h"
-#include "moveit/distance_query.h"
-#include "moveit/log.h"
-#include "moveit/workspace.h"
+#include "moveit/pairs/workspace.h"
+#include "moveit/queries/collision_query.h"
+#include "moveit/queries/continuous_check.h"
+#include "moveit/queries/distance_query.h"
+#include "moveit/shapes/log.h"
 
 // MoveIt's states hold the poses of all links, so a check begins with the bounds of the links' shapes. Pairs whose
 // bounds overlap go through the filter, and the exact tests decide the rest.

@@ -6,8 +6,8 @@
 
 #include <moveit/collision_detection/collision_env.h>
 
-#include "moveit/robot_geometry.h"
-#include "moveit/world_geometry.h"
+#include "moveit/shapes/robot_geometry.h"
+#include "moveit/shapes/world_geometry.h"
 
 namespace gpu_planning_scene::detector
 {

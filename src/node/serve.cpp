@@ -74,11 +74,11 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   Diagnostics diagnostics;
   SceneStore store(std::move(scene), defaults, limits, [&base](std::int64_t stamp) { return base.at(stamp); });
   known = &store;
-  const CheckServer::MakeChecker make_checker = diagnostics.watched(
+  const MakeChecker make_checker = diagnostics.watched(
       makeCheckers(checker_options, open_device, [](const std::string& warning) { ROS_WARN_STREAM(warning); }));
   // A CPU checks few states as fast as a device, on the thread of the caller, and its checker needs no memory of a
   // device.
-  const CheckServer::MakeChecker make_cpu_checker = [&checker_options](std::shared_ptr<const PlanningScene> its_scene)
+  const MakeChecker make_cpu_checker = [&checker_options](std::shared_ptr<const PlanningScene> its_scene)
   { return std::make_shared<CpuChecker>(std::move(its_scene), checker_options); };
   CheckServer server(store, make_checker, server_options, make_cpu_checker);
   const SceneWatch watch(own, store, server);

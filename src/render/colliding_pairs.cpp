@@ -1,5 +1,5 @@
 #include "collision/bounds/problem_maker.h"
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/exact/forest_cache.h"
 #include "collision/problem/collision_problem.h"
 #include "render/renderer.h"
@@ -10,10 +10,10 @@ std::vector<BodyPair> collidingPairs(const PlanningScene& scene, const double* s
 {
   // No pair is left out of the problem, so the state may be outside the joint limits.
   const auto problem = std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr));
-  const auto traversal = ForestCache().traversalOf(problem);
+  const auto exact = ForestCache().exactCheckerOf(problem);
   std::vector<Eigen::Isometry3d> poses(scene.robot->links().size());
   scene.robot->linkPoses(state, poses.data());
-  CpuTraversal::Scratch scratch;
-  return traversal->allCollisions(poses.data(), scratch);
+  ExactChecker::Scratch scratch;
+  return exact->allCollisions(poses.data(), scratch);
 }
 }  // namespace gpu_planning_scene::core

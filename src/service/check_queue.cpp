@@ -17,9 +17,8 @@ constexpr std::chrono::seconds kFirstRest{1};
 constexpr std::chrono::seconds kLongestRest{60};
 }  // namespace
 
-CheckQueue::CheckQueue(const SceneStore& store, CheckServer::MakeChecker make_checker,
-                       const CheckServerOptions& options, std::size_t max_merged_states,
-                       const CheckServer::MakeChecker& make_relief)
+CheckQueue::CheckQueue(const SceneStore& store, MakeChecker make_checker, const CheckServerOptions& options,
+                       std::size_t max_merged_states, const MakeChecker& make_relief)
   : requests_(options, max_merged_states),
     worker_(store, requests_, std::move(make_checker), [this](const CheckStatistics& answered) { count(answered); }),
     relief_(store, requests_, make_relief, [this](const CheckStatistics& answered) { count(answered); }),

@@ -21,8 +21,8 @@ class CheckQueue
   /// `max_merged_states`: the largest number of states in a batch of merged requests; 0: requests are not merged.
   /// `make_relief`: makes the checker of the second thread when a batch takes long for the first time; null: there is
   /// no such thread.
-  CheckQueue(const SceneStore& store, CheckServer::MakeChecker make_checker, const CheckServerOptions& options,
-             std::size_t max_merged_states, const CheckServer::MakeChecker& make_relief = nullptr);
+  CheckQueue(const SceneStore& store, MakeChecker make_checker, const CheckServerOptions& options,
+             std::size_t max_merged_states, const MakeChecker& make_relief = nullptr);
   ~CheckQueue();
 
   /// Makes the checker before the first request arrives. Throws the errors of `make_checker`.

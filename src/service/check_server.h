@@ -11,6 +11,7 @@
 
 #include "gpu_planning_scene/motion_checker.h"
 #include "gpu_planning_scene/state_checker.h"
+#include "service/make_checker.h"
 #include "service/scene_store.h"
 #include "service/service_errors.h"
 
@@ -85,8 +86,6 @@ class CheckQueue;
 class CheckServer
 {
  public:
-  using MakeChecker = std::function<std::shared_ptr<StateChecker>(std::shared_ptr<const PlanningScene>)>;
-
   /// Makes the checker of the small requests immediately, and throws the errors of `make_checker`. The checker of the
   /// large requests is made when it is first needed. A checker that refuses a scene is dropped, and another one is made
   /// for the next batch. `store` must outlive the server. `make_relief` makes the checker for requests of few states

@@ -71,8 +71,7 @@ CheckAnswer part(const CheckAnswer& whole, std::size_t first, const CheckRequest
 }
 }  // namespace
 
-CheckWorker::CheckWorker(const SceneStore& store, const RequestQueue& queue, CheckServer::MakeChecker make_checker,
-                         Count count)
+CheckWorker::CheckWorker(const SceneStore& store, const RequestQueue& queue, MakeChecker make_checker, Count count)
   : store_(store), queue_(queue), make_checker_(std::move(make_checker)), count_(std::move(count))
 {
 }

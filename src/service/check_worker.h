@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "service/check_server.h"
+#include "service/make_checker.h"
 #include "service/request_queue.h"
 
 namespace gpu_planning_scene::core
@@ -20,7 +21,7 @@ class CheckWorker
   using Count = std::function<void(const CheckStatistics&)>;
 
   /// `queue` tells when to stop. `store` and `queue` must outlive the worker.
-  CheckWorker(const SceneStore& store, const RequestQueue& queue, CheckServer::MakeChecker make_checker, Count count);
+  CheckWorker(const SceneStore& store, const RequestQueue& queue, MakeChecker make_checker, Count count);
 
   /// Makes the checker for the newest scene. Throws the errors of `make_checker`.
   void open() { takeScene({}); }
@@ -53,7 +54,7 @@ class CheckWorker
 
   const SceneStore& store_;
   const RequestQueue& queue_;
-  const CheckServer::MakeChecker make_checker_;
+  const MakeChecker make_checker_;
   const Count count_;
   std::shared_ptr<StateChecker> checker_;
   std::shared_ptr<const PlanningScene> checked_;  // the checker's scene

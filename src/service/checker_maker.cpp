@@ -75,8 +75,8 @@ class CheckerMaker
 };
 }  // namespace
 
-CheckServer::MakeChecker makeCheckers(const BatchCheckerOptions& options, const OpenDevice& open_device,
-                                      const std::function<void(const std::string&)>& warn)
+MakeChecker makeCheckers(const BatchCheckerOptions& options, const OpenDevice& open_device,
+                         const std::function<void(const std::string&)>& warn)
 {
   const auto maker = std::make_shared<CheckerMaker>(options, open_device, warn);
   return [maker](const Scene& scene) { return maker->make(scene); };

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "collision/checkers/open_checker.h"
-#include "service/check_server.h"
+#include "service/make_checker.h"
 
 namespace gpu_planning_scene::core
 {
@@ -12,6 +12,6 @@ namespace gpu_planning_scene::core
 /// the function throws the error; but with the device "auto" or "all", it calls `warn` with one line, and the CPU
 /// checks all states from then on. Later checkers open their devices in the background. `warn` also gets the checkers'
 /// StateChecker::deviceWarning.
-CheckServer::MakeChecker makeCheckers(const BatchCheckerOptions& options, const OpenDevice& open_device,
-                                      const std::function<void(const std::string&)>& warn);
+MakeChecker makeCheckers(const BatchCheckerOptions& options, const OpenDevice& open_device,
+                         const std::function<void(const std::string&)>& warn);
 }  // namespace gpu_planning_scene::core

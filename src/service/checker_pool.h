@@ -4,7 +4,7 @@
 #include <mutex>
 #include <vector>
 
-#include "service/check_server.h"
+#include "service/make_checker.h"
 
 namespace gpu_planning_scene::core
 {
@@ -12,7 +12,7 @@ namespace gpu_planning_scene::core
 class CheckerPool
 {
  public:
-  explicit CheckerPool(CheckServer::MakeChecker make) : make_(std::move(make)) {}
+  explicit CheckerPool(MakeChecker make) : make_(std::move(make)) {}
 
   /// A checker for one user at a time. The pool must outlive it.
   class Lease
@@ -33,7 +33,7 @@ class CheckerPool
   };
 
  private:
-  const CheckServer::MakeChecker make_;
+  const MakeChecker make_;
   std::mutex mutex_;
   std::vector<std::shared_ptr<StateChecker>> idle_;  // guarded by mutex_
 };

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "collision/checkers/open_checker.h"
-#include "collision/checkers/scene_text.h"
+#include "collision/report/scene_text.h"
 #include "command_line/robot_arguments.h"
 #include "command_line/scene_arguments.h"
 #include "tools/progress_bar.h"

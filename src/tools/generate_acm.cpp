@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "base/text/name_list.h"
-#include "collision/checkers/scene_text.h"
+#include "collision/report/scene_text.h"
 #include "command_line/robot_arguments.h"
 #include "model/description/description_file.h"
 #include "tools/acm_generator.h"

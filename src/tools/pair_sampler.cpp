@@ -15,7 +15,7 @@ PairSampler::PairSampler(std::shared_ptr<const RobotModel> robot, const AllowedC
   PlanningScene scene(robot_);
   scene.allowed_collisions = decided;
   problem_ = std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr));
-  traversal_ = trees.traversalOf(problem_);
+  exact_ = trees.exactCheckerOf(problem_);
 }
 
 void PairSampler::add(const std::vector<double>& states, std::size_t count, HitCounts& counts) const
@@ -23,13 +23,13 @@ void PairSampler::add(const std::vector<double>& states, std::size_t count, HitC
   const std::size_t width = robot_->variables().size();
   std::vector<std::vector<BodyPair>> hits(count);
   parallelFor(count, 16,
-              [&, scratch = CpuTraversal::Scratch(), poses = std::vector<Eigen::Isometry3d>(robot_->links().size())](
+              [&, scratch = ExactChecker::Scratch(), poses = std::vector<Eigen::Isometry3d>(robot_->links().size())](
                   std::size_t begin, std::size_t end) mutable
               {
                 for (std::size_t i = begin; i < end; ++i)
                 {
                   robot_->linkPoses(states.data() + i * width, poses.data());
-                  hits[i] = traversal_->allCollisions(poses.data(), scratch);
+                  hits[i] = exact_->allCollisions(poses.data(), scratch);
                 }
               });
   for (const auto& pairs : hits)

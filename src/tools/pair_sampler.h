@@ -32,6 +32,6 @@ class PairSampler
  private:
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;
-  std::unique_ptr<const CpuTraversal> traversal_;
+  std::unique_ptr<const ExactChecker> exact_;
 };
 }  // namespace gpu_planning_scene::core

@@ -8,7 +8,7 @@
 #include <sstream>
 #include <string_view>
 
-#include "collision/checkers/scene_text.h"
+#include "collision/report/scene_text.h"
 #include "command_line/robot_arguments.h"
 #include "command_line/scene_arguments.h"
 #include "gpu_planning_scene/state_inspector.h"

@@ -3,7 +3,7 @@
 #include <limits>
 #include <random>
 
-#include "collision/checkers/scene_text.h"
+#include "collision/report/scene_text.h"
 #include "model/full_states.h"
 #include "model/joint_limits.h"
 #include "tools/state_table.h"

@@ -4,7 +4,7 @@
 #include <random>
 #include <sstream>
 
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/trees/binned_sah.h"
 #include "gpu/program.h"
@@ -177,8 +177,8 @@ std::vector<std::string> checkFarLinks(const std::string& shaders, std::uint64_t
     states.push_back(random.uniform(-0.2, 0.2));
   BatchResult result;
   checker.check(states.data(), kStates, result);
-  const CpuTraversal exact(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
-  CpuTraversal::Scratch scratch;
+  const ExactChecker exact(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
+  ExactChecker::Scratch scratch;
   std::vector<std::string> wrong;
   Isometry3d links[3];
   for (std::size_t i = 0; i < kStates; ++i)

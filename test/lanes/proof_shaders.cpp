@@ -48,7 +48,7 @@ void compileProofShaders(const std::string& folder, const std::shared_ptr<const 
     }
     const auto problem = std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr));
     ForestCache forest;
-    forest.traversalOf(problem);
+    forest.exactCheckerOf(problem);
     RobotProofs proofs;
     proofs.covers.assign(problem->robot.size(), ballCover(0.1, 0.0, 0.1));
     proofs.tables.assign(problem->self_pairs.size(), nullptr);

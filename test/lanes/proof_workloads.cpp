@@ -61,7 +61,7 @@ struct Proven
     : scene(std::move(of)),
       limit(largest),
       problem(std::make_shared<const CollisionProblem>(makeProblem(*scene, "", nullptr))),
-      exact(forest.traversalOf(problem))
+      exact(forest.exactCheckerOf(problem))
   {
     RobotProver prover;
     prover.prove(
@@ -75,14 +75,14 @@ struct Proven
   double limit;
   std::shared_ptr<const CollisionProblem> problem;
   ForestCache forest;
-  std::unique_ptr<const CpuTraversal> exact;
+  std::unique_ptr<const ExactChecker> exact;
   RobotProofs proofs;
 
   bool isFree(const std::vector<double>& state) const
   {
     std::vector<Eigen::Isometry3d> links(scene->robot->links().size());
     scene->robot->linkPoses(state.data(), links.data());
-    CpuTraversal::Scratch scratch;
+    ExactChecker::Scratch scratch;
     return !exact->firstCollision(links.data(), scratch);
   }
 };

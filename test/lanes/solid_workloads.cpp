@@ -8,7 +8,7 @@
 #include <random>
 #include <sstream>
 
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/trees/binned_sah.h"
 #include "gpu/program.h"
@@ -478,8 +478,8 @@ std::vector<std::string> checkHalfSpaces(const std::string& shaders, std::uint64
     states.push_back(random.sign() * std::pow(10.0, random.uniform(-8.5, -3.0)) - lowest);
   BatchResult result;
   checker.check(states.data(), kStates, result);
-  const CpuTraversal exact(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
-  CpuTraversal::Scratch scratch;
+  const ExactChecker exact(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
+  ExactChecker::Scratch scratch;
   std::vector<std::string> wrong;
   for (std::size_t i = 0; i < kStates; ++i)
   {

@@ -49,7 +49,7 @@ void measure(const TestScene& scene, std::size_t states, Traversal traversal)
                          std::numeric_limits<double>::infinity());
   checker.setProblem(*problem);
   ForestCache forest;
-  forest.traversalOf(problem);
+  forest.exactCheckerOf(problem);
   const auto proofs = std::make_shared<const RobotProofs>(proofsOf(*scene.scene->robot, problem, forest));
   GpuKinematics kinematics(kShaders, scene.scene->robot);
   kinematics.setInstances(*problem);

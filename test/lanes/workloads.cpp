@@ -6,7 +6,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/gpu/tree_build/gpu_trees.h"
 #include "collision/trees/binned_sah.h"
@@ -131,8 +131,8 @@ std::vector<std::string> checkStates(Traversal traversal, const std::string& sha
         states.push_back(value);
     BatchResult result;
     checker.check(states.data(), kStates, result);
-    const CpuTraversal exact(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
-    CpuTraversal::Scratch scratch;
+    const ExactChecker exact(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
+    ExactChecker::Scratch scratch;
     std::vector<Isometry3d> links(robot->links().size());
     for (std::size_t i = 0; i < kStates; ++i)
     {

@@ -10,9 +10,9 @@
 #include <octomap/OcTree.h>
 
 #include "gpu_planning_scene/moveit/collision_detector_allocator.h"
-#include "moveit/collision_shape.h"
 #include "moveit/moveit_resources.h"
 #include "moveit/shapes.h"
+#include "moveit/shapes/collision_shape.h"
 
 // The behaviour of the detector for MoveIt, where MoveIt's own suites do not look.
 namespace gpu_planning_scene::detector

@@ -9,9 +9,9 @@
 #include <moveit/utils/robot_model_test_utils.h>
 
 #include "moveit/follower_robot.h"
-#include "moveit/motion_bound.h"
-#include "moveit/robot_geometry.h"
-#include "moveit/workspace.h"
+#include "moveit/pairs/workspace.h"
+#include "moveit/queries/motion_bound.h"
+#include "moveit/shapes/robot_geometry.h"
 
 // The bound of a motion between two states, against the motion that MoveIt interpolates.
 namespace gpu_planning_scene::detector

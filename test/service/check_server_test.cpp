@@ -59,7 +59,7 @@ std::string errorOf(std::future<CheckAnswer>& answer)
   return "";
 }
 
-CheckServer::MakeChecker checkersAt(Gate& gate)
+MakeChecker checkersAt(Gate& gate)
 {
   return [&gate](std::shared_ptr<const PlanningScene> scene)
   { return std::make_shared<GatedChecker>(std::move(scene), gate); };
@@ -369,7 +369,7 @@ TEST_F(Server, StopDropsTheCheckers)
 {
   Gate open_gate;
   std::vector<std::weak_ptr<StateChecker>> made;
-  const auto kept = [&made](const CheckServer::MakeChecker& make)
+  const auto kept = [&made](const MakeChecker& make)
   {
     return [&made, make](std::shared_ptr<const PlanningScene> scene)
     {

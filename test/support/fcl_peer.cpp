@@ -117,7 +117,7 @@ struct FclPeer::Impl
     return result;
   }
 
-  /// One check, numbered as in CpuTraversal: a number below robot.size() is a robot instance that is checked against
+  /// One check, numbered as in ExactChecker: a number below robot.size() is a robot instance that is checked against
   /// the world. Larger numbers are self pairs.
   bool check(std::uint32_t number, double margin, double& seconds, std::optional<BodyPair>& found) const
   {
@@ -141,7 +141,7 @@ struct FclPeer::Impl
     return false;
   }
 
-  /// `margins`: as for CpuTraversal; null if there are none.
+  /// `margins`: as for ExactChecker; null if there are none.
   std::optional<BodyPair> firstInLearnedOrder(const double* margins)
   {
     std::optional<BodyPair> found;

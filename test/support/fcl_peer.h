@@ -17,7 +17,7 @@ namespace gpu_planning_scene::core
 enum class FclOrder
 {
   Fixed,   ///< the world before the robot itself; the bounding boxes of all pairs are tested
-  Learned  ///< as CpuTraversal: checks with most collisions for their cost first; FCL's broad phase for the world
+  Learned  ///< as ExactChecker: checks with most collisions for their cost first; FCL's broad phase for the world
 };
 
 /// FCL 0.7 as the peer of tests and benchmarks. Meshes and boxes are BVHModels; spheres, cylinders and cones are FCL's
@@ -41,7 +41,7 @@ class FclPeer
   std::optional<BodyPair> firstCollision();
 
   /// The first pair whose distance, by FCL, is at most its required distance plus its margin. `margins`: as for
-  /// CpuTraversal. The order must be FclOrder::Learned.
+  /// ExactChecker. The order must be FclOrder::Learned.
   std::optional<BodyPair> firstNear(const double* margins);
 
   /// All pairs of bodies that collide.

@@ -8,7 +8,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// The order in which the checks of a state are made, learned as CpuTraversal learns its order: checks that found most
+/// The order in which the checks of a state are made, learned as ExactChecker learns its order: checks that found most
 /// collisions for their cost come first.
 class LearnedOrder
 {

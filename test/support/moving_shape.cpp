@@ -28,7 +28,7 @@ MovingShape::MovingShape(const Shape& moving, const std::vector<PlacedShape>& ob
   problem->world_pairs.assign(problem->world.size(), 1);
   problem->half_space_pairs.assign(problem->half_spaces.size(), 1);
   trees_ = problem->tessellations;
-  traversal_ = std::make_unique<CpuTraversal>(
+  exact_ = std::make_unique<ExactChecker>(
       problem, std::make_shared<const Forest>(build ? build(trees_) : buildBinnedSah(trees_)));
 }
 

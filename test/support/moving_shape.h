@@ -5,7 +5,7 @@
 #include <random>
 #include <vector>
 
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 
 namespace gpu_planning_scene::core
 {
@@ -24,14 +24,14 @@ class MovingShape
   MovingShape(const Shape& moving, const std::vector<PlacedShape>& objects, const PairPadding& padding = {},
               const Build& build = {});
 
-  bool collides(const Eigen::Isometry3d& pose) { return traversal_->firstCollision(&pose, scratch_).has_value(); }
-  std::vector<BodyPair> all(const Eigen::Isometry3d& pose) { return traversal_->allCollisions(&pose, scratch_); }
+  bool collides(const Eigen::Isometry3d& pose) { return exact_->firstCollision(&pose, scratch_).has_value(); }
+  std::vector<BodyPair> all(const Eigen::Isometry3d& pose) { return exact_->allCollisions(&pose, scratch_); }
   const std::vector<Tessellation>& trees() const { return trees_; }
 
  private:
   std::vector<Tessellation> trees_;
-  std::unique_ptr<CpuTraversal> traversal_;
-  CpuTraversal::Scratch scratch_;
+  std::unique_ptr<ExactChecker> exact_;
+  ExactChecker::Scratch scratch_;
 };
 
 /// A random rotation, and a random translation of up to `reach` along each axis.

@@ -43,7 +43,7 @@ class Proofs
     PlanningScene scene(robot);
     scene.allowed_collisions = AllowedCollisionMatrix();
     problem = std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr));
-    traversal = trees.traversalOf(problem);
+    exact = trees.exactCheckerOf(problem);
   }
 
   Separation prove(const std::string& first, const std::string& second, std::size_t tests = kTests)
@@ -58,7 +58,7 @@ class Proofs
   std::shared_ptr<const RobotModel> robot;
   std::shared_ptr<const CollisionProblem> problem;
   ForestCache trees;
-  std::unique_ptr<const CpuTraversal> traversal;
+  std::unique_ptr<const ExactChecker> exact;
 };
 
 /// An arm of two links of half a metre that turns in a plane, and a post. When the arm is stretched towards the post,
@@ -165,12 +165,12 @@ TEST_P(SeparationProofOfRandomRobots, NoRandomStateCollidesWhereAPairIsProvenApa
     std::mt19937_64 states(GetParam());
     std::vector<double> state(proofs.robot->variables().size());
     std::vector<Eigen::Isometry3d> poses(proofs.robot->links().size());
-    CpuTraversal::Scratch scratch;
+    ExactChecker::Scratch scratch;
     for (int k = 0; k < 3000; ++k)
     {
       proofs.robot->randomState(states, state.data());
       proofs.robot->linkPoses(state.data(), poses.data());
-      const std::vector<InstancePair> colliding = proofs.traversal->collidingInstances(poses.data(), scratch);
+      const std::vector<InstancePair> colliding = proofs.exact->collidingInstances(poses.data(), scratch);
       for (std::size_t p = 0; p < hits.size(); ++p)
         hits[p] += std::count(colliding.begin(), colliding.end(), proofs.problem->self_pairs[p]) != 0 ? 1 : 0;
     }

@@ -55,11 +55,11 @@ CheckedPairs RigidPairs::take(const RobotModel& robot, const std::vector<RobotBo
   return rigid;
 }
 
-std::unique_ptr<const CpuTraversal> RigidPairs::traversalOf(const PlanningScene& scene,
-                                                            const std::vector<RobotBody>& bodies,
-                                                            const CheckedPairs& pairs, ForestCache& forest)
+std::unique_ptr<const ExactChecker> RigidPairs::exactCheckerOf(const PlanningScene& scene,
+                                                               const std::vector<RobotBody>& bodies,
+                                                               const CheckedPairs& pairs, ForestCache& forest)
 {
-  return forest.traversalOf(
+  return forest.exactCheckerOf(
       std::make_shared<const CollisionProblem>(problemOf(scene, bodies, pairs, true, tessellations_)));
 }
 
@@ -90,17 +90,17 @@ std::vector<BodyPair> RigidPairs::collisions(const PlanningScene& scene, const s
   if (!unknown.self.empty())
   {
     ForestCache forest;
-    CpuTraversal::Scratch scratch;
+    ExactChecker::Scratch scratch;
     const std::vector<BodyPair> found =
-        traversalOf(scene, bodies, unknown, forest)->allCollisions(poses.data(), scratch);
+        exactCheckerOf(scene, bodies, unknown, forest)->allCollisions(poses.data(), scratch);
     for (const CheckedPair& pair : unknown.self)
       links_collide_[names(pair)] = std::find(found.begin(), found.end(), names(pair)) != found.end();
   }
   std::vector<BodyPair> colliding;
   if (!rigid.self.empty() || !rigid.world.empty())
   {
-    CpuTraversal::Scratch scratch;
-    colliding = traversalOf(scene, bodies, rigid, forest_)->allCollisions(poses.data(), scratch);
+    ExactChecker::Scratch scratch;
+    colliding = exactCheckerOf(scene, bodies, rigid, forest_)->allCollisions(poses.data(), scratch);
   }
   for (const CheckedPair& pair : links)
     if (links_collide_[names(pair)])

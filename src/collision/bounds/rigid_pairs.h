@@ -26,8 +26,8 @@ class RigidPairs
                                    CheckedPairs rigid);
 
  private:
-  std::unique_ptr<const CpuTraversal> traversalOf(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
-                                                  const CheckedPairs& pairs, ForestCache& forest);
+  std::unique_ptr<const ExactChecker> exactCheckerOf(const PlanningScene& scene, const std::vector<RobotBody>& bodies,
+                                                     const CheckedPairs& pairs, ForestCache& forest);
 
   std::shared_ptr<const RobotModel> robot_;
   std::map<BodyPair, bool> links_collide_;  // results for pairs of the robot's links, as far as they have been checked

@@ -1,6 +1,6 @@
 #include "collision/contacts/body_pairs.h"
 
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 
 // The pairs with the world are not listed, because an octomap has very many instances: they follow from the instances
 // of both bodies. Own method.

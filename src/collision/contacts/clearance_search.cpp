@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "collision/exact/cpu_shape_pair.h"
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/exact/pair_clearance.h"
 
 // Branch and bound with bounding boxes: a pair is tested only if its boxes may be nearer than the best clearance so

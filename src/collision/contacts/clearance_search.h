@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/problem/collision_problem.h"
 #include "collision/trees/cpu_forest.h"
 #include "collision/trees/object_tree.h"

@@ -11,7 +11,7 @@
 #include "collision/contacts/body_contacts.h"
 #include "collision/contacts/body_pairs.h"
 #include "collision/contacts/clearance_search.h"
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/exact/forest_cache.h"
 #include "collision/problem/state_validation.h"
 
@@ -60,7 +60,7 @@ struct Inspected
 {
   std::shared_ptr<const CollisionProblem> problem;
   std::shared_ptr<const CpuForest> forest;
-  std::unique_ptr<const CpuTraversal> traversal;
+  std::unique_ptr<const ExactChecker> exact;
   std::unique_ptr<const ClearanceSearch> clearance;
   std::unique_ptr<const BodyPairs> pairs;
 };
@@ -161,7 +161,7 @@ const Inspected& StateInspector::Impl::inspected(const std::string& group)
     return known->second;
   Inspected made;
   made.problem = std::make_shared<const CollisionProblem>(models->maker.make(*scene, group, nullptr));
-  made.traversal = models->forests.traversalOf(made.problem);
+  made.exact = models->forests.exactCheckerOf(made.problem);
   made.forest = models->forests.forest();
   made.clearance = std::make_unique<const ClearanceSearch>(made.problem, made.forest, models->forests.objects());
   made.pairs = std::make_unique<const BodyPairs>(*made.problem);
@@ -299,11 +299,11 @@ std::vector<Contact> StateInspector::contacts(const double* state, const std::st
   const std::vector<Eigen::Isometry3d> poses = impl_->linkPoses(state);
   if (max_contacts == 0)
     return {};
-  CpuTraversal::Scratch scratch;
+  ExactChecker::Scratch scratch;
   std::map<BodyPair, CollidingBodies> by_bodies;
   const CollisionProblem& problem = *inspected.problem;
   const std::size_t first_half_space = problem.robot.size() + problem.world.size();
-  for (const InstancePair& pair : inspected.traversal->collidingInstances(poses.data(), scratch))
+  for (const InstancePair& pair : inspected.exact->collidingInstances(poses.data(), scratch))
   {
     CollidingBodies& colliding = by_bodies[bodiesOf(problem, pair)];
     if (pair[1] < first_half_space)

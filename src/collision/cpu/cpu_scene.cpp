@@ -86,7 +86,7 @@ void CpuScene::prepare(Group& group, const std::shared_ptr<const RobotModel>& ro
 {
   if (group.within)
     return;
-  group.within = forest_->traversalOf(group.problem);
+  group.within = forest_->exactCheckerOf(group.problem);
   // With a tolerance, the traversal may call states colliding that the proofs call free.
   if (options_.reductions.proofs && options_.tolerance == 0.0 && LaneChecker::suits(*group.problem))
     group.lanes = std::make_unique<LaneChecker>(robot, group.problem, forest_->forest(), *group.within);
@@ -265,7 +265,7 @@ void CpuScene::Core::checkRow(const double* state, std::size_t row, const Margin
 }
 
 /// The traversal of all pairs, for states for which the problem is not valid.
-const CpuTraversal& CpuScene::Core::outside()
+const ExactChecker& CpuScene::Core::outside()
 {
   if (outside_)
     return *outside_;
@@ -276,7 +276,7 @@ const CpuTraversal& CpuScene::Core::outside()
     options.reductions.reach = false;
     const auto problem =
         std::make_shared<const CollisionProblem>(ProblemMaker(options).make(*scene_.scene_, name_, nullptr));
-    group_->outside = scene_.forest_outside_.traversalOf(problem);
+    group_->outside = scene_.forest_outside_.exactCheckerOf(problem);
   }
   outside_ = group_->outside.get();
   return *outside_;

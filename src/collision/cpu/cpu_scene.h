@@ -9,7 +9,7 @@
 #include "collision/bounds/displacement_bounds.h"
 #include "collision/bounds/problem_maker.h"
 #include "collision/cpu/lanes/lane_checker.h"
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/exact/forest_cache.h"
 #include "collision/problem/state_range.h"
 
@@ -80,12 +80,12 @@ class CpuScene
     void checkBlock(const double* states, std::size_t begin, std::size_t end, const Margins* margins, bool by_lanes,
                     BatchResult& result);
     void checkRow(const double* state, std::size_t row, const Margins* margins, BatchResult& result);
-    const CpuTraversal& outside();
+    const ExactChecker& outside();
 
     CpuScene& scene_;
     const std::string name_;
     Group* group_ = nullptr;
-    const CpuTraversal* outside_ = nullptr;  // null: not needed yet
+    const ExactChecker* outside_ = nullptr;  // null: not needed yet
     std::unique_ptr<Scratch> scratch_;
   };
 
@@ -99,9 +99,9 @@ class CpuScene
       near_lanes.tally.countFor(decisions);
     }
 
-    CpuTraversal::Scratch within;     // for states for which the problem is valid
-    CpuTraversal::Scratch outside;    // for the other states
-    CpuTraversal::Scratch near;       // for states with margins
+    ExactChecker::Scratch within;     // for states for which the problem is valid
+    ExactChecker::Scratch outside;    // for the other states
+    ExactChecker::Scratch near;       // for states with margins
     LaneChecker::Scratch lanes;       // for blocks of states for which the problem is valid
     LaneChecker::Scratch near_lanes;  // for such blocks with margins
     std::vector<Eigen::Isometry3d> poses;
@@ -111,12 +111,12 @@ class CpuScene
     SceneReport report;
     bool is_sampled = false;  // the report has the pairs of collidingInSamples
     std::shared_ptr<const CollisionProblem> problem;
-    std::unique_ptr<const CpuTraversal> within;        // traversal of this problem
+    std::unique_ptr<const ExactChecker> within;        // of this problem
     std::shared_ptr<ProofJob> cached_proofs;           // null: not requested
     std::unique_ptr<LaneChecker> lanes;                // for states for which the problem is valid; null: not used
     std::shared_ptr<const RobotProofs> device_proofs;  // of device_scene
     std::shared_ptr<const LaneScene> device_scene;     // null: not made
-    std::unique_ptr<const CpuTraversal> outside;       // all pairs, for states for which the problem is not valid
+    std::unique_ptr<const ExactChecker> outside;       // all pairs, for states for which the problem is not valid
     std::unique_ptr<const DisplacementBounds> displacements;
     std::uint64_t checked = 0;  // states
     std::shared_ptr<DecisionTotals> decisions = std::make_shared<DecisionTotals>();

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/problem/collision_problem.h"
 #include "collision/trees/cpu_forest.h"
 #include "collision/trees/object_tree.h"
@@ -14,7 +14,7 @@ namespace gpu_planning_scene::core
 class ForestCache
 {
  public:
-  std::unique_ptr<const CpuTraversal> traversalOf(std::shared_ptr<const CollisionProblem> problem);
+  std::unique_ptr<const ExactChecker> exactCheckerOf(std::shared_ptr<const CollisionProblem> problem);
 
   /// The trees of the last traversal; null before the first one.
   const std::shared_ptr<const CpuForest>& forest() const { return forest_; }

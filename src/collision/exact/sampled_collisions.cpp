@@ -44,14 +44,14 @@ bool isSampled(const PlanningScene& scene, const BodyPair& pair)
 }  // namespace
 
 std::vector<BodyPair> collidingInSamples(const PlanningScene& scene, const CollisionProblem& problem,
-                                         const CpuTraversal& traversal)
+                                         const ExactChecker& exact)
 {
   const RobotModel& robot = *scene.robot;
   std::mt19937_64 generator;  // the same states each time, so that the same scene has the same report
   std::vector<double> state(robot.variables().size());
   const std::vector<double> base = robot.defaultState();
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
-  CpuTraversal::Scratch scratch;
+  ExactChecker::Scratch scratch;
   std::vector<BodyPair> pairs;
   for (std::size_t i = 0; i < kSampledStates; ++i)
   {
@@ -59,7 +59,7 @@ std::vector<BodyPair> collidingInSamples(const PlanningScene& scene, const Colli
     if (!isValidFor(problem, state.data()))
       return {};
     robot.linkPoses(state.data(), poses.data());
-    std::vector<BodyPair> found = traversal.allCollisions(poses.data(), scratch);
+    std::vector<BodyPair> found = exact.allCollisions(poses.data(), scratch);
     if (problem.always_colliding)
       found.erase(std::remove(found.begin(), found.end(), *problem.always_colliding), found.end());
     std::vector<BodyPair> in_all;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "gpu_planning_scene/planning_scene.h"
 
 namespace gpu_planning_scene::core
@@ -10,8 +10,8 @@ namespace gpu_planning_scene::core
 /// The pairs that collide in each of kSampledStates random states within the joint limits, without
 /// CollisionProblem::always_colliding, in ascending order. Pairs between which a planar, floating or passive joint lies
 /// are left out: the robot's true pose and the true values of passive joints come from elsewhere, so random values tell
-/// nothing about them. `problem` is that of `scene`, `traversal` that of `problem`. Usually two or three states
+/// nothing about them. `problem` is that of `scene`, `exact` that of `problem`. Usually two or three states
 /// suffice: the search ends when no pair has collided in all states so far.
 std::vector<BodyPair> collidingInSamples(const PlanningScene& scene, const CollisionProblem& problem,
-                                         const CpuTraversal& traversal);
+                                         const ExactChecker& exact);
 }  // namespace gpu_planning_scene::core

@@ -321,7 +321,7 @@ void GpuChecker::checkAll(PoseSource& source, std::size_t count, std::size_t lin
 void GpuChecker::makeTraversal()
 {
   if (!on_cpu_)
-    on_cpu_ = trees_->traversalOf(problem_);
+    on_cpu_ = trees_->exactCheckerOf(problem_);
 }
 
 void GpuChecker::settleOnCpu(const std::vector<std::size_t>& rows, std::size_t link_count, const LinkPoses& link_poses,
@@ -329,7 +329,7 @@ void GpuChecker::settleOnCpu(const std::vector<std::size_t>& rows, std::size_t l
 {
   makeTraversal();
   parallelFor(rows.size(), 1,
-              [&, scratch = CpuTraversal::Scratch(), links = std::vector<Eigen::Isometry3d>(link_count)](
+              [&, scratch = ExactChecker::Scratch(), links = std::vector<Eigen::Isometry3d>(link_count)](
                   std::size_t from, std::size_t to) mutable
               {
                 for (std::size_t i = from; i < to; ++i)

@@ -11,7 +11,7 @@
 
 #include "collision/bounds/displacement_bounds.h"
 #include "collision/cpu/lanes/lane_scene.h"
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/exact/forest_cache.h"
 #include "collision/gpu/gpu_pair_checker.h"
 #include "collision/gpu/part_source.h"
@@ -109,6 +109,6 @@ class GpuChecker
   std::string proofs_fault_;
   bool usable_ = false;  // the device holds exactly `problem_`
   std::shared_ptr<ForestCache> trees_;
-  std::unique_ptr<const CpuTraversal> on_cpu_;  // for the selected pairs; built when a state is undecided
+  std::unique_ptr<const ExactChecker> on_cpu_;  // for the selected pairs; built when a state is undecided
 };
 }  // namespace gpu_planning_scene::core

@@ -1,9 +1,9 @@
 #include "moveit/planner/converted_shapes.h"
 
 #include "gpu_planning_scene/scene_change.h"
-#include "moveit/collision_shape.h"
-#include "moveit/octree_leaves.h"
 #include "moveit/planner/refusal.h"
+#include "moveit/shapes/collision_shape.h"
+#include "moveit/shapes/octree_leaves.h"
 
 namespace gpu_planning_scene::pipeline
 {

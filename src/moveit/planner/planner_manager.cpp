@@ -39,7 +39,7 @@ std::string settingsName(const std::string& group, const std::string& config)
   return config.empty() ? group : group + "[" + config + "]";
 }
 
-core::CheckServer::MakeChecker checkerMakerFor(const std::string& device)
+core::MakeChecker checkerMakerFor(const std::string& device)
 {
   core::BatchCheckerOptions options;
   options.device = device;

@@ -21,7 +21,7 @@ namespace gpu_planning_scene::pipeline
 /// Thread-safe.
 struct Workshop
 {
-  explicit Workshop(core::CheckServer::MakeChecker make_checker) : checkers(std::move(make_checker)) {}
+  explicit Workshop(core::MakeChecker make_checker) : checkers(std::move(make_checker)) {}
 
   SceneConverter converter;
   core::CheckerPool checkers;

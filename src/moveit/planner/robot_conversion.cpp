@@ -10,9 +10,9 @@
 
 #include "base/math_constants.h"
 #include "model/description/robot_parts.h"
-#include "moveit/collision_shape.h"
 #include "moveit/planner/converted_shapes.h"
 #include "moveit/planner/refusal.h"
+#include "moveit/shapes/collision_shape.h"
 
 // Converts the robot that MoveIt has made from the URDF and the SRDF, instead of reading both again: limits and meshes
 // are then those that MoveIt uses, and RobotModel does not keep the texts.

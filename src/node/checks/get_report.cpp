@@ -1,4 +1,4 @@
-#include "collision/checkers/scene_text.h"
+#include "collision/report/scene_text.h"
 #include "model/full_states.h"
 #include "model/robot_text.h"
 #include "node/checks/check_services.h"

@@ -6,7 +6,7 @@
 #include <ros/console.h>
 
 #include "base/text/one_line.h"
-#include "collision/checkers/scene_text.h"
+#include "collision/report/scene_text.h"
 #include "model/full_states.h"
 
 namespace gpu_planning_scene::core

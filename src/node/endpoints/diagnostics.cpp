@@ -53,7 +53,7 @@ DeviceHistory sumOf(const std::vector<std::shared_ptr<const StateChecker>>& chec
 }
 }  // namespace
 
-CheckServer::MakeChecker Diagnostics::watched(const CheckServer::MakeChecker& make)
+MakeChecker Diagnostics::watched(const MakeChecker& make)
 {
   return [this, make](const std::shared_ptr<const PlanningScene>& scene)
   {

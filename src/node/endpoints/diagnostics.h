@@ -12,6 +12,7 @@
 
 #include "gpu_planning_scene/state_checker.h"
 #include "service/check_server.h"
+#include "service/make_checker.h"
 
 namespace gpu_planning_scene::core
 {
@@ -21,7 +22,7 @@ class Diagnostics
  public:
   /// Returns a function that makes checkers with `make` and adds each checker to the status, for as long as the checker
   /// exists. This object must outlive the function.
-  CheckServer::MakeChecker watched(const CheckServer::MakeChecker& make);
+  MakeChecker watched(const MakeChecker& make);
   /// Adds the fault of the scene to the status. `fault`: returns the reason why the scene is not known; empty if it is
   /// known. Thread-safe.
   void watchScene(std::function<std::string()> fault);

@@ -18,9 +18,9 @@ KinematicsOptions kinematicsOptionsFromParameters(const ros::NodeHandle& own)
   return options;
 }
 
-KinematicsServices::KinematicsServices(const SceneStore& store, OtherFrames others,
-                                       CheckServer::MakeChecker make_checker, InspectorOf inspector_of,
-                                       const MemoryGuard& memory, const KinematicsOptions& options)
+KinematicsServices::KinematicsServices(const SceneStore& store, OtherFrames others, MakeChecker make_checker,
+                                       InspectorOf inspector_of, const MemoryGuard& memory,
+                                       const KinematicsOptions& options)
   : store_(store),
     others_(std::move(others)),
     inspector_of_(std::move(inspector_of)),

@@ -47,8 +47,8 @@ class KinematicsServices
 
   /// `others`: the frames that the scene does not have. `make_checker`: makes the checkers of the searches, which
   /// check few states at a time. `inspector_of`: the inspector of a scene.
-  KinematicsServices(const SceneStore& store, OtherFrames others, CheckServer::MakeChecker make_checker,
-                     InspectorOf inspector_of, const MemoryGuard& memory, const KinematicsOptions& options);
+  KinematicsServices(const SceneStore& store, OtherFrames others, MakeChecker make_checker, InspectorOf inspector_of,
+                     const MemoryGuard& memory, const KinematicsOptions& options);
 
   ComputeIk::Response computeIk(const ComputeIk::Request& request);
   ComputeCartesianPath::Response computeCartesianPath(const ComputeCartesianPath::Request& request);

@@ -51,9 +51,8 @@ std::uint8_t statusOf(PlanningStatus status)
 }
 }  // namespace
 
-PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFrames others,
-                         CheckServer::MakeChecker make_checker, const MemoryGuard& memory, Show show,
-                         const PlanServiceOptions& options)
+PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFrames others, MakeChecker make_checker,
+                         const MemoryGuard& memory, Show show, const PlanServiceOptions& options)
   : store_(store),
     others_(std::move(others)),
     memory_(memory),

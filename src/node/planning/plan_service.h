@@ -31,7 +31,7 @@ class PlanService
   /// `make_checker`: makes checkers whose errors are those of requests. Each check should begin on the caller's thread,
   /// because a planner checks some hundred states at a time. `others`: the frames of requests that the scene does not
   /// have. `show`: gets each plan, on the thread of its request. Throws Error for wrong values in ~planners.
-  PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFrames others, CheckServer::MakeChecker make_checker,
+  PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFrames others, MakeChecker make_checker,
               const MemoryGuard& memory, Show show, const PlanServiceOptions& options);
 
   /// Loads the planners that the groups have by default, and prepares a checker for each group, so that the first

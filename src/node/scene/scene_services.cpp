@@ -4,7 +4,7 @@
 
 #include "base/text/name_list.h"
 #include "base/text/one_line.h"
-#include "collision/checkers/scene_text.h"
+#include "collision/report/scene_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "model/joint_limits.h"

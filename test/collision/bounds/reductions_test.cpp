@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "collision/bounds/problem_maker.h"
-#include "collision/checkers/scene_text.h"
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
+#include "collision/report/scene_text.h"
 #include "collision/trees/binned_sah.h"
 #include "gpu_planning_scene/batch_checker.h"
 #include "gpu_planning_scene/cpu_checker.h"
@@ -196,8 +196,8 @@ TEST_P(BoundsIn, LeaveOutOnlyWhatCannotMeetWithinTheLimits)
   const CollisionProblem whole = makeProblem(*scene_, "", nullptr);
   const auto left_out = std::make_shared<const CollisionProblem>(withoutPairs(whole, bodyPairs(reduced)));
   EXPECT_EQ(bodyPairs(*left_out).size(), report.unreachable_self_pairs + report.unreachable_world_pairs);
-  const CpuTraversal traversal(left_out, std::make_shared<const Forest>(buildBinnedSah(left_out->tessellations)));
-  CpuTraversal::Scratch scratch;
+  const ExactChecker exact(left_out, std::make_shared<const Forest>(buildBinnedSah(left_out->tessellations)));
+  ExactChecker::Scratch scratch;
   const RobotModel& robot = *scene_->robot;
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   std::vector<double> state(robot.variables().size());
@@ -206,7 +206,7 @@ TEST_P(BoundsIn, LeaveOutOnlyWhatCannotMeetWithinTheLimits)
   {
     robot.randomState(generator, state.data());
     robot.linkPoses(state.data(), poses.data());
-    const auto pair = traversal.firstCollision(poses.data(), scratch);
+    const auto pair = exact.firstCollision(poses.data(), scratch);
     ASSERT_FALSE(pair) << scene_->bodyName((*pair)[0]) << " - " << scene_->bodyName((*pair)[1]) << ", seed " << kSeed;
   }
 }

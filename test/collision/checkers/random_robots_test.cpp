@@ -499,7 +499,7 @@ TEST_P(ProofsOfRandomRobots, GiveTheVerdictsOfTheExactChecker)
   if (problem->always_colliding)
     return;  // there is nothing to prove
   ForestCache trees;
-  const auto exact = trees.traversalOf(problem);
+  const auto exact = trees.exactCheckerOf(problem);
   LaneChecker checker(scene->robot, problem, trees.forest(), *exact);
   EXPECT_EQ(checker.requestProofs(), ProofStage::None);
   waitForProofs();
@@ -507,7 +507,7 @@ TEST_P(ProofsOfRandomRobots, GiveTheVerdictsOfTheExactChecker)
   const std::vector<double> states = randomStates(robot);
   LaneChecker::Scratch scratch;
   checker.useProofs(scratch);
-  CpuTraversal::Scratch exact_scratch;
+  ExactChecker::Scratch exact_scratch;
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   std::size_t free = 0;
   for (std::size_t i = 0; i + lanes::kLanes <= kStatesOfARobot; i += lanes::kLanes)

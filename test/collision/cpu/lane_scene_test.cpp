@@ -22,7 +22,7 @@ std::vector<InstancePairs> collidingPairs(const ProvenScene& proven, const std::
 {
   const RobotModel& robot = *proven.scene.scene->robot;
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
-  CpuTraversal::Scratch scratch;
+  ExactChecker::Scratch scratch;
   std::vector<InstancePairs> all;
   for (std::size_t i = 0; i < states.size(); i += robot.variables().size())
   {
@@ -112,11 +112,11 @@ TEST_P(ProvenScenes, PairsThatAreProvenApartKeepTheirMarginsIfThereAreAny)
   for (const double margin : margins)
     in_lanes.insert(in_lanes.end(), lanes::kLanes, lanes::kernelMargin(margin));
   std::vector<Eigen::Isometry3d> poses(robot().links().size());
-  CpuTraversal::Scratch exact;
+  ExactChecker::Scratch exact;
   std::vector<std::uint64_t> steps;
   for (const bool has_margins : {true, false})
   {
-    std::vector<CpuTraversal::OpenPair> pairs;
+    std::vector<ExactChecker::OpenPair> pairs;
     for (std::uint32_t p = 0; p < proven_->lanes->pairCount(); ++p)
     {
       const InstancePair& instances = proven_->lanes->instancesOf(p);
@@ -132,7 +132,7 @@ TEST_P(ProvenScenes, PairsThatAreProvenApartKeepTheirMarginsIfThereAreAny)
                  if (result.proof == Proof::Colliding)
                    return;
                  robot().linkPoses(states.data() + state * robot().variables().size(), poses.data());
-                 std::vector<CpuTraversal::OpenPair> proven_apart;
+                 std::vector<ExactChecker::OpenPair> proven_apart;
                  for (std::uint32_t p = 0; p < pairs.size(); ++p)
                    if (std::find(result.open.begin(), result.open.end(), p) == result.open.end())
                      proven_apart.push_back(pairs[p]);

@@ -82,14 +82,14 @@ TEST(CpuPadding, DoesNotCountBetweenLinks)
   problem->tessellations = {tessellate(problem->shapes[0])};
   problem->robot = {{0, 0, 0, Eigen::Isometry3d::Identity(), 0.1}, {0, 1, 1, Eigen::Isometry3d::Identity(), 0.1}};
   problem->self_pairs = {{0, 1}};
-  const CpuTraversal traversal(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
-  CpuTraversal::Scratch scratch;
+  const ExactChecker exact(problem, std::make_shared<const Forest>(buildBinnedSah(problem->tessellations)));
+  ExactChecker::Scratch scratch;
   // The links are rotated, so that their axis-aligned boxes overlap.
   const Eigen::Isometry3d turn(Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()));
   for (const double gap : {0.0, 0.05, 1e-8})
   {
     const std::array<Eigen::Isometry3d, 2> poses = {turn, turn * at(1.0 + gap, 0.2, 0.2)};
-    EXPECT_EQ(gap == 0.0, traversal.firstCollision(poses.data(), scratch).has_value()) << gap;
+    EXPECT_EQ(gap == 0.0, exact.firstCollision(poses.data(), scratch).has_value()) << gap;
   }
 }
 

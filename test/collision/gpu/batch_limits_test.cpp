@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/gpu/gpu_pair_checker.h"
 #include "collision/gpu/problem/uploaded_poses.h"
@@ -90,11 +90,11 @@ class BatchLimits : public testing::TestWithParam<Traversal>
     EglContext context("auto");
     GpuScene scene(shaderFolder());
     scene.setProblem(*problem_);
-    const CpuTraversal traversal(problem_, std::make_shared<const Forest>(scene.readForest()));
-    CpuTraversal::Scratch scratch;
+    const ExactChecker exact(problem_, std::make_shared<const Forest>(scene.readForest()));
+    ExactChecker::Scratch scratch;
     std::vector<std::uint8_t> valid;
     for (const Eigen::Isometry3d& pose : poses_)
-      valid.push_back(traversal.firstCollision(&pose, scratch) ? 0 : 1);
+      valid.push_back(exact.firstCollision(&pose, scratch) ? 0 : 1);
     return valid;
   }
 

@@ -101,7 +101,7 @@ class GpuProofsOfScenes : public testing::TestWithParam<const char*>
     BatchResult with;
     checkers_[1]->check(states.data(), count, with, margins);
     std::vector<Eigen::Isometry3d> poses(robot().links().size());
-    CpuTraversal::Scratch scratch;
+    ExactChecker::Scratch scratch;
     for (std::size_t i = 0; i < count; ++i)
     {
       robot().linkPoses(states.data() + i * robot().variables().size(), poses.data());

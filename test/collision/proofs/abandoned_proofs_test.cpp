@@ -65,7 +65,7 @@ struct ToProve
   explicit ToProve(const PlanningScene& scene)
     : robot(scene.robot), problem(std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr)))
   {
-    trees.traversalOf(problem);
+    trees.exactCheckerOf(problem);
   }
 
   std::shared_ptr<ProofJob> inBackground() const { return proveInBackground(robot, problem, trees.forest()); }

@@ -138,13 +138,13 @@ class ProofCacheTest : public testing::Test
     explicit Loaded(const std::string& urdf) : scene(robotOf(urdf))
     {
       problem = std::make_shared<const CollisionProblem>(makeProblem(scene, "", nullptr));
-      exact = forest.traversalOf(problem);
+      exact = forest.exactCheckerOf(problem);
     }
 
     PlanningScene scene;
     std::shared_ptr<const CollisionProblem> problem;
     ForestCache forest;
-    std::unique_ptr<const CpuTraversal> exact;
+    std::unique_ptr<const ExactChecker> exact;
   };
 
   void SetUp() override { folder_ = newFolder(); }

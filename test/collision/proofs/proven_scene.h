@@ -19,7 +19,7 @@ struct ProvenScene
   TestScene scene;
   std::shared_ptr<const CollisionProblem> problem;
   ForestCache forest;
-  std::unique_ptr<const CpuTraversal> exact;
+  std::unique_ptr<const ExactChecker> exact;
   std::shared_ptr<const RobotProofs> proofs;
   std::unique_ptr<const LaneScene> lanes;
 };
@@ -30,7 +30,7 @@ inline ProvenScene prove(const TestScene& scene)
   ProvenScene made;
   made.scene = scene;
   made.problem = std::make_shared<const CollisionProblem>(makeProblem(*scene.scene, "", nullptr));
-  made.exact = made.forest.traversalOf(made.problem);
+  made.exact = made.forest.exactCheckerOf(made.problem);
   RobotProver prover;
   const auto publish = [&made](RobotProofs proofs)
   { made.proofs = std::make_shared<const RobotProofs>(std::move(proofs)); };

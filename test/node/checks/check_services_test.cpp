@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collision/checkers/scene_text.h"
+#include "collision/report/scene_text.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "model/model_testing.h"
 #include "node/checks/answering_scene.h"
@@ -808,9 +808,9 @@ class FailingChecker : public StateChecker
 
 TEST_F(Service, AFailureOfTheDeviceIsAnAnswer)
 {
-  const CheckServer::MakeChecker losing = [](auto) { return std::make_shared<FailingChecker<DeviceLost>>(); };
-  const CheckServer::MakeChecker throwing = [](auto) { return std::make_shared<FailingChecker<std::runtime_error>>(); };
-  for (const CheckServer::MakeChecker& make_checker : {losing, throwing})
+  const MakeChecker losing = [](auto) { return std::make_shared<FailingChecker<DeviceLost>>(); };
+  const MakeChecker throwing = [](auto) { return std::make_shared<FailingChecker<std::runtime_error>>(); };
+  for (const MakeChecker& make_checker : {losing, throwing})
   {
     CheckServer failing(store, make_checker, {});
     const auto response =

@@ -74,7 +74,7 @@ class DeviceDiagnostics : public testing::Test
           fault_.load()(repaired);
         return std::make_unique<Device>(losses);
       };
-      const CheckServer::MakeChecker make = makeCheckers(options_, open, [](const std::string&) {});
+      const MakeChecker make = makeCheckers(options_, open, [](const std::string&) {});
       server_ = std::make_unique<CheckServer>(store_, diagnostics_.watched(make), CheckServerOptions());
     }
     return *server_;

@@ -13,11 +13,11 @@ constexpr std::size_t kMostPairs = 20'000;
 }  // namespace
 
 LaneChecker::LaneChecker(std::shared_ptr<const RobotModel> robot, std::shared_ptr<const CollisionProblem> problem,
-                         std::shared_ptr<const CpuForest> forest, const CpuTraversal& traversal)
+                         std::shared_ptr<const CpuForest> forest, const ExactChecker& exact)
   : robot_(std::move(robot)),
     problem_(std::move(problem)),
     forest_(std::move(forest)),
-    traversal_(traversal),
+    exact_(exact),
     kernel_(lanes::availableKernels().front().kernel)
 {
 }
@@ -81,7 +81,7 @@ double LaneChecker::marginOf(std::uint32_t pair, const double* margins, const La
 std::optional<BodyPair> LaneChecker::decideOpenPairs(const double* state, std::uint32_t* open, std::size_t open_count,
                                                      const double* margins, Scratch& scratch) const
 {
-  // By collisions found per cost, as in CpuTraversal::learnOrder.
+  // By collisions found per cost, as in ExactChecker::learnOrder.
   const auto gain = [&](std::uint32_t pair) { return scratch.records[pair].hits / scratch.records[pair].cost; };
   std::sort(open, open + open_count, [&](std::uint32_t a, std::uint32_t b) { return gain(a) > gain(b); });
   scratch.pairs.clear();
@@ -94,8 +94,8 @@ std::optional<BodyPair> LaneChecker::decideOpenPairs(const double* state, std::u
       if (instance < problem_->robot.size())
         robot_->computeLinkPose(state, problem_->robot[instance].link, scratch.poses.data(), scratch.known.data());
   }
-  const auto pair = traversal_.firstCollisionOf(scratch.pairs.data(), scratch.pairs.size(), scratch.poses.data(),
-                                                scratch.exact, scratch.steps);
+  const auto pair = exact_.firstCollisionOf(scratch.pairs.data(), scratch.pairs.size(), scratch.poses.data(),
+                                            scratch.exact, scratch.steps);
   for (std::size_t k = 0; k < scratch.steps.size(); ++k)
     scratch.records[open[k]].cost += static_cast<double>(scratch.steps[k]) + 1.0;
   if (pair)

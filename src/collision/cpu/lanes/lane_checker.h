@@ -12,7 +12,7 @@
 #include "collision/cpu/lanes/lane_buffers.h"
 #include "collision/cpu/lanes/lane_kernel.h"
 #include "collision/cpu/lanes/lane_scene.h"
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/proofs/proof_worker.h"
 #include "gpu_planning_scene/state_checker.h"
 
@@ -38,10 +38,10 @@ class LaneChecker
     std::vector<float> margins;
     std::vector<Eigen::Isometry3d> poses;  // of links
     std::vector<std::uint8_t> known;       // of each link: whether its pose is set
-    std::vector<CpuTraversal::OpenPair> pairs;
+    std::vector<ExactChecker::OpenPair> pairs;
     std::vector<PairRecord> records;  // of each pair
     std::vector<std::uint64_t> steps;
-    CpuTraversal::Scratch exact;
+    ExactChecker::Scratch exact;
     DecisionTally tally;
   };
 
@@ -49,9 +49,9 @@ class LaneChecker
   /// pair of a link and an object, while the exact checker has a tree over the objects.
   static bool suits(const CollisionProblem& problem);
 
-  /// `traversal` must outlive the checker.
+  /// `exact` must outlive the checker.
   LaneChecker(std::shared_ptr<const RobotModel> robot, std::shared_ptr<const CollisionProblem> problem,
-              std::shared_ptr<const CpuForest> forest, const CpuTraversal& traversal);
+              std::shared_ptr<const CpuForest> forest, const ExactChecker& exact);
 
   /// The stage of the newest proofs. The first call starts to make proofs in the background. One caller at a time.
   ProofStage requestProofs();
@@ -68,7 +68,7 @@ class LaneChecker
 
   /// Checks `count` states (1 to lanes::kLanes rows), which are the rows `row` and following of `result`. For each one
   /// that collides, sets `valid` to 0, and its pair; leaves the other rows as they are. `margins`: of each state, see
-  /// CpuTraversal::firstCollision; null: no margins. The problem must be valid for the states, and `takes` true.
+  /// ExactChecker::firstCollision; null: no margins. The problem must be valid for the states, and `takes` true.
   /// Thread-safe if each thread has its own scratch; states with and without margins should have different ones,
   /// because the scratch learns which tests pay.
   void check(const double* states, std::size_t count, std::size_t row, const double* const* margins, Scratch& scratch,
@@ -83,7 +83,7 @@ class LaneChecker
   std::shared_ptr<const RobotModel> robot_;
   std::shared_ptr<const CollisionProblem> problem_;
   std::shared_ptr<const CpuForest> forest_;
-  const CpuTraversal& traversal_;
+  const ExactChecker& exact_;
   std::shared_ptr<ProofJob> job_;  // null before the first call of requestProofs
   std::shared_ptr<const RobotProofs> proofs_;
   std::shared_ptr<const LaneScene> scene_;  // made with proofs_

@@ -9,7 +9,7 @@
 
 #include "collision/cpu/lanes/lane_frames.h"
 #include "collision/cpu/lanes/lane_model.h"
-#include "collision/exact/cpu_traversal.h"
+#include "collision/exact/exact_checker.h"
 #include "collision/problem/collision_problem.h"
 #include "collision/proofs/robot_proofs.h"
 #include "collision/trees/cpu_forest.h"

@@ -5,7 +5,7 @@
 #include "shader_constants.h"
 
 // Counts the reported collisions per query and sorts the queries by these counts. A new order is due when the number of
-// states has doubled, and at least every kMaxStatesPerOrder states. This is the rule of CpuTraversal::learnOrder (Simon
+// states has doubled, and at least every kMaxStatesPerOrder states. This is the rule of ExactChecker::learnOrder (Simon
 // and Kadane 1975) for queries of equal cost.
 namespace gpu_planning_scene::core
 {
