@@ -27,7 +27,6 @@
 #define LOCATION_LEAF_PAIR_CAPACITY 14
 #define LOCATION_IN_CAPACITY 15
 #define LOCATION_IS_LAST 16
-#define LOCATION_TOLERANCE 17
 #define LOCATION_SERIAL 18
 #define LOCATION_COUNTER 19
 #define LOCATION_CAPACITY 20
@@ -218,11 +217,6 @@
 // 1 in the programs that traverse pairs of a mesh and a solid, 0 in the programs that traverse pairs of meshes.
 #ifndef SOLIDS
 #define SOLIDS 0
-#endif
-
-// 1 in the programs with a tolerance, see traversal/tolerance.glsl.
-#ifndef TOLERANT
-#define TOLERANT 0
 #endif
 
 // 1 in the programs for batches with margins, see problem/margins.glsl.

@@ -151,22 +151,18 @@ MethodInfo onGpu(const std::string& name, const std::string& title, Traversal tr
   return info;
 }
 
-/// The default for users: the faster of GPU and CPU. `millimetres`: the tolerance.
-MethodInfo automatic(int millimetres)
+/// The default for users: GPU and CPU together, or the CPU if there is no GPU.
+MethodInfo automatic()
 {
   MethodInfo info;
-  info.name = millimetres == 0 ? "ours_auto" : "ours_tolerance_" + std::to_string(millimetres) + "mm";
-  info.title = millimetres == 0 ? "ours, exact" : "ours, " + std::to_string(millimetres) + " mm";
-  info.family = millimetres == 0 ? "ours" : "ours, tolerance";
-  info.exact = millimetres == 0;
-  info.batched = millimetres == 0;
-  info.responsive = millimetres == 0;
-  info.make = [millimetres](const auto& scene, const MethodOptions& options)
-  {
-    BatchCheckerOptions made = batchOptions(options);
-    made.tolerance = 1e-3 * millimetres;
-    return std::make_unique<ChoosingMethod>(std::make_unique<BatchChecker>(scene, made));
-  };
+  info.name = "ours_auto";
+  info.title = "ours, exact";
+  info.family = "ours";
+  info.exact = true;
+  info.batched = true;
+  info.responsive = true;
+  info.make = [](const auto& scene, const MethodOptions& options)
+  { return std::make_unique<ChoosingMethod>(std::make_unique<BatchChecker>(scene, batchOptions(options))); };
   return info;
 }
 
@@ -205,12 +201,10 @@ std::vector<MethodInfo> ourMethods()
   std::vector<MethodInfo> methods;
   methods.push_back(onCpu("exact_cpu", "exact checker, CPU", true));
   methods.push_back(onCpu("exact_cpu_no_proofs", "exact checker, CPU, no proofs", false));
-  methods.push_back(automatic(0));
+  methods.push_back(automatic());
   methods.push_back(onGpu("ours_work_queue", "ours, work queues", Traversal::WorkQueue, true));
   methods.push_back(onGpu("ours_breadth_first", "ours, breadth-first", Traversal::BreadthFirst, true));
   methods.push_back(onGpu("ours_work_queue_no_proofs", "ours, work queues, no proofs", Traversal::WorkQueue, false));
-  for (const int millimetres : {1, 2, 5, 10, 20, 50})
-    methods.push_back(automatic(millimetres));
   MethodInfo floats;
   floats.name = "ours_float32";
   floats.title = "ours, float32 only";

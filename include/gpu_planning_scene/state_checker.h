@@ -36,10 +36,6 @@ struct Reductions
 
 struct CheckerOptions
 {
-  /// Metres, at least 0; 0: exact. Above 0, a pair may be reported as colliding if its distance is at most the required
-  /// distance (see StateChecker) plus this value, because traversal stops early: as soon as the boxes of two nodes
-  /// prove such a distance. A collision is never reported as free.
-  double tolerance = 0.0;
   Reductions reductions;
 };
 

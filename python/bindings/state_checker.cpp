@@ -34,12 +34,11 @@ CheckerPtr opened(const PlanningScene& scene, const Open& open)
   return withoutLock([&] { return std::make_shared<SharedChecker>(open(copy), copy); });
 }
 
-BatchCheckerOptions optionsFrom(const Arg<std::string>& device, Arg<double> tolerance, Arg<std::size_t> max_batch,
-                                Arg<bool> device_only, const Arg<std::string>& traversal)
+BatchCheckerOptions optionsFrom(const Arg<std::string>& device, Arg<std::size_t> max_batch, Arg<bool> device_only,
+                                const Arg<std::string>& traversal)
 {
   BatchCheckerOptions options;
   options.device = device.value;
-  options.tolerance = tolerance.value;
   options.max_batch = max_batch.value;
   options.device_only = device_only.value;
   options.traversal = core::traversalFromName(traversal.value);
@@ -55,10 +54,10 @@ void warnWithLock(const std::string& line)
     PyErr_WriteUnraisable(nullptr);
 }
 
-CheckerPtr openedOnDevice(const Arg<ScenePtr>& scene, const Arg<std::string>& device, Arg<double> tolerance,
-                          Arg<std::size_t> max_batch, Arg<bool> device_only, const Arg<std::string>& traversal)
+CheckerPtr openedOnDevice(const Arg<ScenePtr>& scene, const Arg<std::string>& device, Arg<std::size_t> max_batch,
+                          Arg<bool> device_only, const Arg<std::string>& traversal)
 {
-  const BatchCheckerOptions options = optionsFrom(device, tolerance, max_batch, device_only, traversal);
+  const BatchCheckerOptions options = optionsFrom(device, max_batch, device_only, traversal);
   return opened(*scene.value,
                 [&](const std::shared_ptr<const PlanningScene>& copy) -> std::shared_ptr<StateChecker>
                 { return core::openChecker(copy, options, warnWithLock); });
@@ -200,17 +199,15 @@ void addStateChecker(py::module_& module)
   const BatchCheckerOptions defaults;
   py::class_<SharedChecker, CheckerPtr> checker(
       module, "StateChecker",
-      "Checks many robot states for collision at once, on any device.\n\nscene: the checker takes a copy. device: "
-      "\"cpu\" is the library's CpuChecker, which needs no OpenGL. All other values are its BatchChecker: \"auto\" "
-      "takes "
-      "the first hardware device, or software if there is none; \"software\"; an index of list_devices() as a str; a "
-      "part of a renderer's name; several devices as \"0+1\"; all GPUs as \"all\". All devices give the same `valid`. "
-      "A device that fails is opened again; while it cannot be used, the CPU answers, and a UserWarning gives the "
-      "reason. "
-      "tolerance: metres; 0: exact; above 0, bodies within this distance may be reported as colliding. max_batch: the "
-      "most states that go to a device at once. device_only: the devices check all states that they can; otherwise "
-      "the cores of the CPU work beside them, and check small batches alone. traversal: \"work_queue\" or "
-      "\"breadth_first\".\n\n"
+      "Checks many robot states for collision at once, on any device.\n\nscene: the checker takes a copy. "
+      "device: \"cpu\" is the library's CpuChecker, which needs no OpenGL. All other values are its "
+      "BatchChecker: \"auto\" takes the first GPU, or the CPU if there is none; \"software\" (llvmpipe); an "
+      "index of list_devices() as a str; a part of a renderer's name; several devices as \"0+1\"; all GPUs as "
+      "\"all\". All devices give the same `valid`. A device that fails is opened again; while it cannot be "
+      "used, the CPU answers, and a UserWarning gives the reason. max_batch: the most states that go to a "
+      "device at once. device_only: the devices check all states that they can, and \"auto\" takes llvmpipe if "
+      "there is no GPU; otherwise the cores of the CPU work beside them, and check small batches alone. "
+      "traversal: \"work_queue\" or \"breadth_first\".\n\n"
       "Thread-safe: calls are served one after the other, and other threads of Python run meanwhile. Raises Error if "
       "a device that `device` names cannot be used, or if the scene or an option is not valid.\n\n"
       "    checker = gps.StateChecker(scene, device=\"cpu\")\n"
@@ -218,8 +215,8 @@ void addStateChecker(py::module_& module)
       "    print(result.valid.mean())");
   checker
       .def(py::init(&openedOnDevice), py::arg("scene"), py::arg("device") = defaults.device,
-           py::arg("tolerance") = defaults.tolerance, py::arg("max_batch") = defaults.max_batch,
-           py::arg("device_only") = defaults.device_only, py::arg("traversal") = "work_queue")
+           py::arg("max_batch") = defaults.max_batch, py::arg("device_only") = defaults.device_only,
+           py::arg("traversal") = "work_queue")
       .def(
           "check", &checkStates, py::arg("states"), py::arg("group") = "",
           "Checks states.\n\nstates: shape (n, variables) or (variables,), radians and metres; or a str or a list of "

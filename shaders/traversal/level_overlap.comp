@@ -11,8 +11,8 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "traversal/solid_nodes.glsl"
 #endif
 #include "traversal/verdicts.glsl"
-#if TOLERANT || PADDED
-#include "traversal/tolerance.glsl"
+#if PADDED
+#include "traversal/close_enough.glsl"
 #endif
 layout(std430, binding = BINDING_A) writeonly buffer Masks { uint masks[]; };
 layout(std430, binding = BINDING_B) writeonly buffer Sums { uvec2 sums[]; };
@@ -56,7 +56,7 @@ void main()
       inside = inside || nodeInCore(child_a, child_b, instance_a.core, instance_b.core, root_pair.pose,
                                     boxError(root_pair.error));
 #endif
-#if TOLERANT || PADDED
+#if PADDED
       inside = inside || isCloseEnough(entry.x, root_pair, child_a, child_b);
 #endif
       const bool leaves = child_a.count != 0u && child_b.count != 0u;

@@ -28,8 +28,8 @@ layout(local_size_x = QUEUE_INVOCATIONS) in;
 // Room for all leaf pairs that the invocations can add before the work group tests triangles.
 #define LEAF_QUEUE (QUEUE_FLUSH + QUEUE_INVOCATIONS * QUEUE_STEPS)
 #include "traversal/leaf_queue.glsl"
-#if TOLERANT || PADDED
-#include "traversal/tolerance.glsl"
+#if PADDED
+#include "traversal/close_enough.glsl"
 #endif
 layout(location = LOCATION_IN_LIST) uniform uint in_list;
 layout(location = LOCATION_OUT_LIST) uniform uint out_list;
@@ -118,7 +118,7 @@ void main()
       overlap = overlap && !nodeBeyondSolid(a, b, instance_a, instance_b, root_pair);
       inside = nodeInCore(a, b, instance_a.core, instance_b.core, root_pair.pose, boxError(root_pair.error));
 #endif
-#if TOLERANT || PADDED
+#if PADDED
       inside = inside || isCloseEnough(root_pair_index, root_pair, a, b);
 #endif
       const bool leaf = a.count != 0u && b.count != 0u;

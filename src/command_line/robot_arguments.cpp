@@ -40,10 +40,7 @@ std::vector<Option> deviceOptions()
           {"--device-only", "",
            "the device checks all states that it can, and auto takes\nllvmpipe if there is no GPU; else cores check "
            "states too"},
-          {"--max-batch", "N", "most states that go to the device at once (default 131072)"},
-          {"--tolerance", "METRES",
-           "0 (default): exact. Above 0: to save time, bodies within this\ndistance (beyond their padding) may be "
-           "reported as colliding"}};
+          {"--max-batch", "N", "most states that go to the device at once (default 131072)"}};
 }
 
 std::map<std::string, std::string> packageFoldersFrom(const CommandLine& arguments)
@@ -127,7 +124,6 @@ BatchCheckerOptions checkerOptionsFrom(const CommandLine& arguments)
   }
   options.device_only = arguments.has("--device-only");
   options.max_batch = arguments.count("--max-batch", options.max_batch, 1, 1 << 24);
-  options.tolerance = arguments.number("--tolerance", options.tolerance, 0.0, 1e3);
   return options;
 }
 

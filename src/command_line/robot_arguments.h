@@ -12,7 +12,7 @@
 namespace gpu_planning_scene::core
 {
 /// The tools' options for the robot (--urdf, --srdf, --package, --planning, --unbounded-translation, --solid) and for
-/// the device (--device, --traversal, --device-only, --max-batch, --tolerance).
+/// the device (--device, --traversal, --device-only, --max-batch).
 std::vector<Option> robotOptions();
 /// --package alone, which is also one of robotOptions().
 Option packageOption();

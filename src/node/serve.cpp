@@ -63,7 +63,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   SceneDefaults defaults;
   PlanningScene scene = sceneFromParameters(node, own, defaults, &warnings);
   warn(warnings);
-  const std::uint64_t setup = setupFromParameters(node, own, *scene.robot, defaults);
+  const std::uint64_t setup = setupFromParameters(node, *scene.robot, defaults);
 
   std::atomic<bool> stopping{false};
   const SceneStore* known = nullptr;  // the store below, which needs the lookup for the base

@@ -66,7 +66,7 @@ void bindTexels(TexelBuffer& buffer, const std::vector<Texel>& texels, std::uint
 
 /// Pairs of a corner and the centre of its box, 1 to 1e5 times their distance from the origin. The corner is rotated
 /// into the frame of the box, as when a box is fitted. Both points, as boxes without size, are compared with a distance
-/// that is less than theirs, as a traversal with a tolerance does.
+/// that is less than theirs, as a traversal with a required distance does.
 std::vector<std::string> checkBoxes(const std::string& shaders, std::uint64_t seed)
 {
   Random random(seed);
@@ -96,7 +96,7 @@ layout(local_size_x = GROUP_SIZE) in;
 #include "problem/triangles.glsl"
 #include "geometry/error_bounds.glsl"
 #include "traversal/bounding_volume_overlap.glsl"
-#include "traversal/tolerance.glsl"
+#include "traversal/close_enough.glsl"
 #include "tree_build/fit_output.glsl"
 #include "tree_build/fit.glsl"
 layout(std430, binding = BINDING_C) readonly buffer Values { vec4 values[]; };
@@ -124,7 +124,6 @@ void main()
   Buffer output(kCases * sizeof(Texel));
   input.bindStorage(BINDING_C);
   output.bindStorage(BINDING_D);
-  program.setFloat(LOCATION_TOLERANCE, 0.0F);
   program.dispatch(groupsFor(kCases));
   std::vector<Texel> results(kCases);
   output.read(results.data(), kCases * sizeof(Texel));

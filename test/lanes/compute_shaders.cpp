@@ -44,8 +44,7 @@ std::set<std::string> computeShaders(const std::string& folder)
     const auto programs = makeTraversal(traversal, folder, kUntrusted);
     for (const bool solids : {false, true})
       for (const bool padded : {false, true})
-        for (const float tolerance : {0.0F, 0.001F})
-          programs->prepare({solids, padded, tolerance, 1});
+        programs->prepare({solids, padded, 1});
   }
   for (const std::string& definitions : {std::string(), kUntrusted})
     compileProofShaders(folder, robotWithAllJoints(), definitions);

@@ -57,7 +57,7 @@ FUNCTION_OF = {
     "shaders/self_test/float_arithmetic.comp": ["arithmetic"],
     "shaders/traversal/solid_leaf.glsl": ["solids"],
     "shaders/traversal/solid_nodes.glsl": ["solids"],
-    "shaders/traversal/tolerance.glsl": ["boxes"],
+    "shaders/traversal/close_enough.glsl": ["boxes"],
     "shaders/tree_build/fit.glsl": ["boxes"],
 }
 # A run that needs more processor time than this, in seconds, does not end. A run without a deletion needs a few seconds.

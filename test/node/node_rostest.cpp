@@ -202,7 +202,6 @@ TEST_F(Node, DoesNotStartOnWhatItCannotUse)
   expectNoStart({"_device:=no such renderer"}, "no such renderer");
   expectNoStart({"_traversal:=depth_first"}, "depth_first");
   expectNoStart({"_max_batch:=0"}, "max_batch is not an integer");
-  expectNoStart({"_tolerance:=-0.001"}, "tolerance is negative");
   expectNoStart({"_packages:=5"}, "~packages");
 }
 

@@ -260,10 +260,8 @@ class StateChecker(Case):
         for error, pattern, options in (
             (gps.Error, "warp drive", {"device": "warp drive"}),
             (gps.Error, "sideways", {"traversal": "sideways"}),
-            (gps.Error, "tolerance", {"tolerance": -1.0, "device": "cpu"}),
             (TypeError, "whole number", {"max_batch": -1}),
             (TypeError, "True or False", {"device_only": "all"}),
-            (TypeError, "expected a number", {"tolerance": "fine"}),
         ):
             self.assert_one_line(error, pattern, gps.StateChecker, scene, **options)
         self.assert_one_line(TypeError, "expected a PlanningScene", gps.StateChecker, rail())
@@ -385,29 +383,29 @@ class StateChecker(Case):
     def test_many_checks_leak_no_memory(self):
         scene = arm_scene()
         state = scene.robot.random_states(1, seed=6)
-        # From 20,000 states on, memory is used for proofs that are made in the background, unless there is a tolerance.
-        for tolerance, checks in ((0.0, 10000), (1e-6, 100000)):
-            checker = gps.StateChecker(scene, device="cpu", tolerance=tolerance)
+        # From 20,000 states on, memory is used for proofs that are made in the background.
+        checks = 10000
+        checker = gps.StateChecker(scene, device="cpu")
 
-            def check(times, checker=checker):
-                for i in range(times):
-                    result = checker.check(state)
-                    result.valid.any()
-                    result.colliding.max()
-                    if i % 10 == 0:
-                        try:
-                            checker.check(state[:, :1])
-                        except gps.Error:
-                            pass
+        def check(times):
+            for i in range(times):
+                result = checker.check(state)
+                result.valid.any()
+                result.colliding.max()
+                if i % 10 == 0:
+                    try:
+                        checker.check(state[:, :1])
+                    except gps.Error:
+                        pass
 
-            check(1000)
-            bytes_before = memory_in_use()
-            blocks_before = sys.getallocatedblocks()
-            check(checks)
-            # An object that is leaked in each check has at least 16 bytes of malloc or is one block of Python. So has
-            # one that is leaked in each error.
-            self.assertLess(memory_in_use() - bytes_before, checks * 8 // 10)
-            self.assertLess(sys.getallocatedblocks() - blocks_before, checks // 20)
+        check(1000)
+        bytes_before = memory_in_use()
+        blocks_before = sys.getallocatedblocks()
+        check(checks)
+        # An object that is leaked in each check has at least 16 bytes of malloc or is one block of Python. So has
+        # one that is leaked in each error.
+        self.assertLess(memory_in_use() - bytes_before, checks * 8 // 10)
+        self.assertLess(sys.getallocatedblocks() - blocks_before, checks // 20)
 
 
 if __name__ == "__main__":

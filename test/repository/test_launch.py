@@ -133,8 +133,8 @@ class LaunchFile(unittest.TestCase):
             for count in (0, 1, 12):
                 expected = {"cell": "", **{f"cell_{i + 1}": "cell" for i in range(count)}}
                 self.assertEqual(expected, followed(f"replicas:={count}", "name:=cell")[0])
-            _, params = followed("scene:=/a.yaml", "tolerance:=0.5", "device:=cpu", "packages:={a: /b}")
-            for name, same in (("tolerance", 0.5), ("device", "cpu"), ("packages/a", "/b"), ("urdf_folder", "/robot")):
+            _, params = followed("scene:=/a.yaml", "device:=cpu", "packages:={a: /b}")
+            for name, same in (("device", "cpu"), ("packages/a", "/b"), ("urdf_folder", "/robot")):
                 for node in ("planning_scene", "planning_scene_3"):
                     self.assertEqual(same, params[f"/{node}/{name}"].value, f"{node}: {name}")
             self.assertEqual("", params["/planning_scene_3/scene"].value, "the scene comes from the leader")

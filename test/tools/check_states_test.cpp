@@ -391,9 +391,9 @@ TEST_F(CheckStates, SaysWhatItIsAndCanDo)
   EXPECT_EQ(3, std::sscanf(version.out.c_str(), "check_states %d.%d.%d\n", &major, &minor, &patch)) << version.out;
   const ProgramOutput help = run({"--help"});
   EXPECT_EQ(0, help.exit_code);
-  for (const char* option : {"--urdf", "--srdf", "--package", "--planning", "--scene", "--states", "--state",
-                             "--random", "--random-base", "--seed", "--group", "valid,body_1,body_2", "--device",
-                             "--traversal", "--tolerance", "--out", "--version", "--help"})
+  for (const char* option :
+       {"--urdf", "--srdf", "--package", "--planning", "--scene", "--states", "--state", "--random", "--random-base",
+        "--seed", "--group", "valid,body_1,body_2", "--device", "--traversal", "--out", "--version", "--help"})
     EXPECT_NE(std::string::npos, help.out.find(option)) << option;
 }
 
@@ -486,7 +486,6 @@ TEST_F(CheckStates, BadUsageEndsWithTwo)
   expectError(check({"--random", "1", "--package", "nothing"}), 2, "'nothing' is not NAME=DIR");
   expectError(check({"--random", "1", "--traversal", "depth_first"}), 2, "depth_first");
   expectError(check({"--random", "1", "--max-batch", "0"}), 2, "--max-batch");
-  expectError(check({"--random", "1", "--tolerance", "-0.001"}), 2, "--tolerance");
   expectError(runProgram(GPS_CHECK_STATES, {"--urdf"}), 2, "--urdf needs a value");
   expectError(run({"--version=1"}), 2, "--version takes no value");
 }

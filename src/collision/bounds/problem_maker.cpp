@@ -18,11 +18,6 @@ std::vector<bool> movedLinks(const RobotModel& robot, const std::string& group)
 }
 }  // namespace
 
-ProblemMaker::ProblemMaker(const CheckerOptions& options) : options_(options)
-{
-  validateTolerance(options.tolerance);
-}
-
 CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::string& group, SceneReport* report)
 {
   validator_.validate(scene);
@@ -47,7 +42,6 @@ CollisionProblem ProblemMaker::make(const PlanningScene& scene, const std::strin
 
   CollisionProblem problem = problemOf(scene, bodies, pairs, options_.reductions.shared_trees, tessellations_);
   problem.direct_primitives = options_.reductions.direct_primitives;
-  problem.tolerance = options_.tolerance;
   problem.always_colliding = counts.always_colliding;
   problem.ranges = std::move(ranges);
   counts.trees = problem.tessellations.size();

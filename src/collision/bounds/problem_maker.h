@@ -14,8 +14,7 @@ namespace gpu_planning_scene::core
 class ProblemMaker
 {
  public:
-  /// Throws Error if the tolerance is negative or not finite.
-  explicit ProblemMaker(const CheckerOptions& options);
+  explicit ProblemMaker(const CheckerOptions& options) : options_(options) {}
 
   /// Like makeProblem, but with the reductions. If Reductions::reach has left pairs out, the problem is valid only for
   /// states within its ranges.

@@ -12,14 +12,13 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-std::shared_ptr<const CollisionProblem> pairProblem(const Shape& a, const Shape& b, double tolerance)
+std::shared_ptr<const CollisionProblem> pairProblem(const Shape& a, const Shape& b)
 {
   validateShape(a, "shape a");
   validateShape(b, "shape b");
   if (std::holds_alternative<HalfSpace>(b))
     throw Error("shape b is a half-space, which cannot move; give it as shape a");
   auto problem = std::make_shared<CollisionProblem>();
-  problem->tolerance = tolerance;
   problem->shapes = {b};
   problem->tessellations = {tessellate(b)};
   problem->robot = {{0, 0, 0, Eigen::Isometry3d::Identity()}};
@@ -58,8 +57,7 @@ struct MeshPairChecker::Impl
 MeshPairChecker::MeshPairChecker(const Shape& a, const Shape& b, const BatchCheckerOptions& options)
   : impl_(std::make_unique<Impl>(options))
 {
-  validateTolerance(options.tolerance);
-  impl_->gpu_checker.setProblem(pairProblem(a, b, options.tolerance));
+  impl_->gpu_checker.setProblem(pairProblem(a, b));
 }
 
 MeshPairChecker::~MeshPairChecker() = default;

@@ -68,11 +68,7 @@ class Search
  public:
   Search(const CollisionProblem& problem, std::shared_ptr<const CpuForest> forest, const ObjectTree& objects,
          const std::vector<AlignedBox3d>& world_bounds, const Isometry3d* link_poses)
-    : problem_(problem),
-      forest_(std::move(forest)),
-      pair_(forest_, problem.tolerance),
-      objects_(objects),
-      world_bounds_(world_bounds)
+    : problem_(problem), forest_(std::move(forest)), pair_(forest_), objects_(objects), world_bounds_(world_bounds)
   {
     for (const ShapeInstance& instance : problem.robot)
     {
@@ -162,11 +158,11 @@ class Search
       return;
     const ShapeInstance& a = problem_.robot[instance];
     const ShapeInstance& b = problem_.world[object];
-    const double required = a.padding + b.padding;
+    const InstancePair pair = {instance, static_cast<std::uint32_t>(problem_.robot.size()) + object};
+    const double required = requiredDistance(problem_, pair);
     nearest.consider(
         leastDistance(bounds_[instance], world_bounds_[object]) - required,
-        maxDistance(bounds_[instance], world_bounds_[object]) - required, {a.body, b.body},
-        {instance, static_cast<std::uint32_t>(problem_.robot.size()) + object},
+        maxDistance(bounds_[instance], world_bounds_[object]) - required, {a.body, b.body}, pair,
         [&] { return pair_.collide(a.tree, poses_[instance], b.tree, b.pose, required, scratch_); },
         [&](double most)
         {
@@ -180,7 +176,8 @@ class Search
     const WorldHalfSpace& half_space = problem_.half_spaces[index];
     const auto first = static_cast<std::uint32_t>(problem_.robot.size() + problem_.world.size());
     const ShapeInstance& a = problem_.robot[instance];
-    const double required = a.padding + half_space.padding;
+    const InstancePair pair = {instance, first + index};
+    const double required = requiredDistance(problem_, pair);
     const double center = half_space.normal.dot(bounds_[instance].center()) - half_space.offset - required;
     const double reach = 0.5 * half_space.normal.cwiseAbs().dot(bounds_[instance].sizes()) + kDistanceMargin;
     const auto collides = [&](double distance)
@@ -189,8 +186,7 @@ class Search
                            scratch_);
     };
     nearest.consider(
-        center - reach, center + reach, {a.body, half_space.body}, {instance, first + index},
-        [&] { return collides(0.0); },
+        center - reach, center + reach, {a.body, half_space.body}, pair, [&] { return collides(0.0); },
         [&](double most) { return collides(most) ? bisectLeast(0.0, most, collides) : most; });
   }
 

@@ -206,10 +206,8 @@ std::vector<ShapeContact> StateInspector::Impl::contactsOfShapes(const Inspected
         problem, bodies,
         [&](const InstancePair& pair)
         {
-          ContactPair found = {shapeOf(group, pair[0], link_poses), shapeOf(group, pair[1], link_poses), 0.0};
-          const std::size_t robots = problem.robot.size();
-          if (pair[1] >= robots)
-            found.required = problem.robot[pair[0]].padding + problem.world[pair[1] - robots].padding;
+          ContactPair found = {shapeOf(group, pair[0], link_poses), shapeOf(group, pair[1], link_poses),
+                               requiredDistance(problem, pair)};
           const double distance =
               boundsOf(*found.a.tree, found.a.pose).exteriorDistance(boundsOf(*found.b.tree, found.b.pose));
           if (distance > reach + found.required)
@@ -267,9 +265,7 @@ std::array<Eigen::Vector3d, 2> StateInspector::Impl::nearestPoints(const Inspect
   }
   else
   {
-    const double required =
-        pair[1] < robots ? 0.0 : problem.robot[pair[0]].padding + problem.world[pair[1] - robots].padding;
-    points = nearestPointsOf(a, shapeOf(group, pair[1], link_poses), clearance + required);
+    points = nearestPointsOf(a, shapeOf(group, pair[1], link_poses), clearance + requiredDistance(problem, pair));
   }
   if (problem.robot[pair[0]].body != bodies[0])
     std::swap(points[0], points[1]);

@@ -87,8 +87,7 @@ void CpuScene::prepare(Group& group, const std::shared_ptr<const RobotModel>& ro
   if (group.within)
     return;
   group.within = forest_->exactCheckerOf(group.problem);
-  // With a tolerance, the traversal may call states colliding that the proofs call free.
-  if (options_.reductions.proofs && options_.tolerance == 0.0 && LaneChecker::suits(*group.problem))
+  if (options_.reductions.proofs && LaneChecker::suits(*group.problem))
     group.lanes = std::make_unique<LaneChecker>(robot, group.problem, forest_->forest(), *group.within);
 }
 

@@ -25,7 +25,6 @@ constexpr std::size_t kStatesBeforeProofs = 20'000;
 class CpuScene
 {
  public:
-  /// Throws Error for an invalid tolerance.
   explicit CpuScene(const CheckerOptions& options);
 
   /// `is_prepared`: prepares the group "" too. Throws Error and keeps the old scene if this one cannot be used.

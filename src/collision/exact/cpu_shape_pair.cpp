@@ -22,8 +22,9 @@ using Eigen::Vector3d;
 // Boxes are grown by this margin. It exceeds the rounding of the box tests plus kSlack, so no colliding pair is lost.
 constexpr double kBoxMargin = 1e-9;  // metres
 
-// Nodes count as a collision only if they are within the tolerance by this margin, which exceeds their rounding error.
-constexpr double kToleranceMargin = 1e-9;  // metres
+// Nodes count as a collision only if they are within the required distance by this margin, which exceeds their rounding
+// error.
+constexpr double kProofMargin = 1e-9;  // metres
 
 // The test of two solids costs about as much as visiting this many nodes, and so does a search for an axis that
 // separates a triangle from a solid.
@@ -138,9 +139,9 @@ bool CpuShapePair::surfaceMeetsSolid(const CpuTree& mesh, const CpuTree& solid, 
   const Shape& shape = solid.shape;
   // For a box without a required distance, the overlap test is enough, because the solid fills its bounding box. In all
   // other cases, the distance from the solid separates more nodes.
-  const bool by_distance = !std::holds_alternative<Box>(shape) || required > 0.0 || tolerance_ > 0.0;
+  const bool by_distance = !std::holds_alternative<Box>(shape) || required > 0.0;
   const double margin = required + kBoxMargin;
-  const double near_enough = required + tolerance_ - kToleranceMargin;
+  const double near_enough = required - kProofMargin;
   const WideTree& tree = mesh.wide;
   const OrientedBox around = placed(solid.box, mesh_in_solid.inverse());
   const FloatBox around_in_floats = floatBox(around, tree, margin);
@@ -207,24 +208,21 @@ bool CpuShapePair::leavesMeet(const CpuTree& a, BoxIndex leaf_a, const CpuTree& 
 /// Simultaneous traversal of two trees. The boxes of each pair overlap; the caller has tested the root boxes. The
 /// larger box of a pair is opened: the boxes below it are tested together.
 ///
-/// With a required distance or a tolerance, the traversal stops at two nodes that are close enough to count as a
-/// collision. Each node has a triangle, and all points of this triangle are within the node's radius (half the diagonal
-/// of its box) of the box's centre. So the distance of the two triangles is at most the distance of the centres plus
-/// both radii. The traversal stops if this sum is at most the required distance plus the tolerance. It opens the pair
-/// with the nearest centres first, because this pair most likely collides.
-///
-/// Example: the required distance is 0, two nodes overlap, and their diagonals add up to at most the tolerance. Then
-/// the radii add up to at most half of the tolerance, and so does the distance of the centres. For a required distance
-/// v > 0, the overlap of boxes grown by v would prove less, because their corners reach v times the square root of 3.
+/// With a required distance, the traversal stops at two nodes that are close enough to collide. Each node has a
+/// triangle, and all points of this triangle are within the node's radius (half the diagonal of its box) of the box's
+/// centre. So the distance of the two triangles is at most the distance of the centres plus both radii. The traversal
+/// stops if this sum is at most the required distance. It opens the pair with the nearest centres first, because this
+/// pair most likely collides. The overlap of boxes grown by the required distance v would prove less, because their
+/// corners reach v times the square root of 3.
 bool CpuShapePair::surfacesMeet(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, double required,
                                 Scratch& scratch) const
 {
-  const double near_enough = required + tolerance_ - kToleranceMargin - a.wide.centerError() - b.wide.centerError();
+  const double near_enough = required - kProofMargin - a.wide.centerError() - b.wide.centerError();
   const double growth = required + kBoxMargin;
   const WidePlacement in_a(b.wide, b_in_a, a.wide, growth);
   const WidePlacement in_b(a.wide, b_in_a.inverse(), b.wide, growth);
   const double small = kSmallBox * in_a.errors();
-  const bool by_distance = required > 0.0 || tolerance_ > 0.0;
+  const bool by_distance = required > 0.0;
   std::array<double, kWideSlots> distances;  // of the centres of the pairs that the opened box adds
   scratch.node_pairs.assign(1, {WideTree::kRoot, WideTree::kRoot});
   while (!scratch.node_pairs.empty())

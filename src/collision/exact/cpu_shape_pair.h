@@ -23,10 +23,6 @@ struct PlacedHalfSpace
 /// Decides whether two placed shapes collide, by the rule of kSlack (triangle_pair.h): primitives by their exact
 /// surfaces, meshes by their triangles and by the solids of their closed components. Distances are accurate to 1e-10 m
 /// for coordinates within a kilometre. The verdict of a pair does not depend on the trees.
-///
-/// With a tolerance above 0, a pair with a mesh may be reported as colliding without a test of its triangles, if nodes
-/// of the trees prove a distance of at most the required distance plus the tolerance. Then verdicts within the
-/// tolerance do depend on the trees and on the instruction set.
 class CpuShapePair
 {
  public:
@@ -51,9 +47,8 @@ class CpuShapePair
     static constexpr std::uint64_t kStepsOfEightBoxes = 2;
   };
 
-  /// `tolerance`: metres, at least 0.
-  explicit CpuShapePair(std::shared_ptr<const CpuForest> forest, double tolerance = 0.0)
-    : forest_(std::move(forest)), tolerance_(tolerance), tests_(availableWideTests().front())
+  explicit CpuShapePair(std::shared_ptr<const CpuForest> forest)
+    : forest_(std::move(forest)), tests_(availableWideTests().front())
   {
   }
 
@@ -79,7 +74,6 @@ class CpuShapePair
                     Scratch& scratch) const;
 
   std::shared_ptr<const CpuForest> forest_;
-  double tolerance_;
   WideTests tests_;
 };
 

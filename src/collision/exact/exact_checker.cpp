@@ -58,7 +58,7 @@ ExactChecker::ExactChecker(std::shared_ptr<const CollisionProblem> problem, std:
                            std::shared_ptr<const ObjectTree> objects)
   : problem_(std::move(problem)),
     forest_(std::move(forest)),
-    pair_(forest_, problem_->tolerance),
+    pair_(forest_),
     objects_(objects ? std::move(objects)
                      : std::make_shared<const ObjectTree>(worldBounds(*problem_, *forest_), ObjectTree()))
 {
@@ -102,33 +102,41 @@ void ExactChecker::place(std::uint32_t instance, const Isometry3d* link_poses, S
   }
 }
 
+bool ExactChecker::collides(const InstancePair& pair, double margin, Scratch& scratch) const
+{
+  const auto& robot = problem_->robot;
+  const std::uint32_t tree = robot[pair[0]].tree;
+  const Isometry3d& pose = scratch.poses[pair[0]];
+  const double required = requiredDistance(*problem_, pair) + margin;
+  if (pair[1] < robot.size())
+    return pair_.collide(tree, pose, robot[pair[1]].tree, scratch.poses[pair[1]], required, scratch.pair);
+  const std::size_t object = pair[1] - robot.size();
+  if (object < problem_->world.size())
+  {
+    const ShapeInstance& other = problem_->world[object];
+    return pair_.collide(tree, pose, other.tree, other.pose, required, scratch.pair);
+  }
+  const WorldHalfSpace& other = problem_->half_spaces[object - problem_->world.size()];
+  return pair_.collide(tree, pose, {other.normal, other.offset}, required, scratch.pair);
+}
+
 template <class Visit>
 bool ExactChecker::checkWorld(std::uint32_t instance, double margin, Scratch& scratch, const Visit& visit) const
 {
-  const ShapeInstance& robot = problem_->robot[instance];
   const auto& half_spaces = problem_->half_spaces;
   const auto robots = static_cast<std::uint32_t>(problem_->robot.size());
   const auto objects = static_cast<std::uint32_t>(problem_->world.size());
-  const double padding = robot.padding + margin;
-  findNearObjects(grown(scratch.bounds[instance], padding), scratch);
+  findNearObjects(grown(scratch.bounds[instance], problem_->robot[instance].padding + margin), scratch);
   for (const std::uint32_t object : scratch.near_objects)
-  {
-    const ShapeInstance& other = problem_->world[object];
-    if (problem_->world_pairs[instance * problem_->world.size() + object] != 0 &&
-        pair_.collide(robot.tree, scratch.poses[instance], other.tree, other.pose, padding + other.padding,
-                      scratch.pair) &&
-        visit({instance, robots + object}))
+    if (const InstancePair pair = {instance, robots + object};
+        problem_->world_pairs[instance * problem_->world.size() + object] != 0 && collides(pair, margin, scratch) &&
+        visit(pair))
       return true;
-  }
   for (std::uint32_t k = 0; k < half_spaces.size(); ++k)
-  {
-    const WorldHalfSpace& other = half_spaces[k];
-    if (problem_->half_space_pairs[instance * half_spaces.size() + k] != 0 &&
-        pair_.collide(robot.tree, scratch.poses[instance], {other.normal, other.offset}, padding + other.padding,
-                      scratch.pair) &&
-        visit({instance, robots + objects + k}))
+    if (const InstancePair pair = {instance, robots + objects + k};
+        problem_->half_space_pairs[instance * half_spaces.size() + k] != 0 && collides(pair, margin, scratch) &&
+        visit(pair))
       return true;
-  }
   return false;
 }
 
@@ -142,13 +150,11 @@ bool ExactChecker::check(std::uint32_t number, const Isometry3d* link_poses, dou
     place(number, link_poses, scratch);
     return checkWorld(number, margin, scratch, visit);
   }
-  const auto [first, second] = problem_->self_pairs[number - robot.size()];
-  place(first, link_poses, scratch);
-  place(second, link_poses, scratch);
-  return grown(scratch.bounds[first], margin).intersects(scratch.bounds[second]) &&
-         pair_.collide(robot[first].tree, scratch.poses[first], robot[second].tree, scratch.poses[second], margin,
-                       scratch.pair) &&
-         visit({first, second});
+  const InstancePair& pair = problem_->self_pairs[number - robot.size()];
+  place(pair[0], link_poses, scratch);
+  place(pair[1], link_poses, scratch);
+  return grown(scratch.bounds[pair[0]], margin).intersects(scratch.bounds[pair[1]]) &&
+         collides(pair, margin, scratch) && visit(pair);
 }
 
 /// Sorts the checks by collisions found per cost, which makes the expected cost of finding a collision small. Sorts
@@ -198,24 +204,6 @@ std::optional<BodyPair> ExactChecker::firstCollisionOf(const OpenPair* pairs, st
                                                        std::vector<std::uint64_t>& steps) const
 {
   const auto& robot = problem_->robot;
-  const auto collides = [&](const InstancePair& pair, double margin)
-  {
-    const ShapeInstance& first = robot[pair[0]];
-    if (pair[1] < robot.size())
-      return pair_.collide(first.tree, scratch.poses[pair[0]], robot[pair[1]].tree, scratch.poses[pair[1]], margin,
-                           scratch.pair);
-    const double padding = first.padding + margin;
-    const std::size_t object = pair[1] - robot.size();
-    if (object < problem_->world.size())
-    {
-      const ShapeInstance& other = problem_->world[object];
-      return pair_.collide(first.tree, scratch.poses[pair[0]], other.tree, other.pose, padding + other.padding,
-                           scratch.pair);
-    }
-    const WorldHalfSpace& other = problem_->half_spaces[object - problem_->world.size()];
-    return pair_.collide(first.tree, scratch.poses[pair[0]], {other.normal, other.offset}, padding + other.padding,
-                         scratch.pair);
-  };
   scratch.poses.resize(robot.size());
   steps.clear();
   for (std::size_t i = 0; i < count; ++i)
@@ -224,7 +212,7 @@ std::optional<BodyPair> ExactChecker::firstCollisionOf(const OpenPair* pairs, st
       if (instance < robot.size())
         scratch.poses[instance] = link_poses[robot[instance].link] * robot[instance].pose;
     const std::uint64_t before = scratch.pair.steps;
-    const bool collide = collides(pairs[i].instances, pairs[i].margin);
+    const bool collide = collides(pairs[i].instances, pairs[i].margin, scratch);
     steps.push_back(scratch.pair.steps - before);
     if (collide)
       return bodiesOf(*problem_, pairs[i].instances);

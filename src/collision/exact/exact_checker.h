@@ -72,6 +72,8 @@ class ExactChecker
   std::vector<InstancePair> collidingInstances(const Eigen::Isometry3d* link_poses, Scratch& scratch) const;
 
  private:
+  /// Whether a pair collides whose robot instances are placed. `margin`: in addition to the required distance.
+  bool collides(const InstancePair& pair, double margin, Scratch& scratch) const;
   /// A check tests one robot instance against the world, or one self pair. The first numbers are the robot instances;
   /// the self pairs follow. Calls visit(instance pair) for each collision until it returns true. Returns whether visit
   /// returned true.

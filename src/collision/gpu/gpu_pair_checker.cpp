@@ -403,7 +403,7 @@ void GpuPairChecker::testHalfSpaces()
 
 TraversalTask GpuPairChecker::task(bool solids, bool padded) const
 {
-  return {solids, padded, scene_.tolerance(), scene_.depthBound()};
+  return {solids, padded, scene_.depthBound()};
 }
 
 /// Solids first, because their collisions are cheaper to find.

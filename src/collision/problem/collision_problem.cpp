@@ -186,19 +186,22 @@ bool sameShape(const Shape& a, const Shape& b)
   return ShapeKey(a) == ShapeKey(b);
 }
 
+double requiredDistance(const CollisionProblem& problem, const InstancePair& pair)
+{
+  if (pair[1] < problem.robot.size())
+    return 0.0;
+  const std::size_t object = pair[1] - problem.robot.size();
+  const std::size_t objects = problem.world.size();
+  return problem.robot[pair[0]].padding +
+         (object < objects ? problem.world[object].padding : problem.half_spaces[object - objects].padding);
+}
+
 bool withinRanges(const std::vector<VariableRange>& ranges, const double* state)
 {
   return std::all_of(
       ranges.begin(), ranges.end(),
       [state](const VariableRange& range)
       { return state[range.variable] >= range.lower && state[range.variable] <= range.upper; });
-}
-
-void validateTolerance(double tolerance)
-{
-  if (!std::isfinite(tolerance) || tolerance < 0.0)
-    throw Error("the tolerance is " + std::to_string(tolerance) +
-                "; it must be a finite number of metres, at least 0 (0: exact)");
 }
 
 CollisionProblem problemOf(const PlanningScene& scene, const std::vector<RobotBody>& bodies, const CheckedPairs& pairs,

@@ -58,8 +58,6 @@ struct CollisionProblem
   std::vector<std::uint8_t> world_pairs;    ///< robot.size() x world.size(), row-major; 1: the pair is checked
   std::vector<WorldHalfSpace> half_spaces;
   std::vector<std::uint8_t> half_space_pairs;  ///< robot.size() x half_spaces.size(), row-major
-  /// Metres: see CheckerOptions.
-  double tolerance = 0.0;
   /// Whether the GPU may test primitives as solids: see Reductions.
   bool direct_primitives = true;
   /// If a pair of bodies collides in every state: this pair, in ascending order. The lists of pairs above do not
@@ -72,6 +70,9 @@ struct CollisionProblem
   /// It changes no verdict.
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 };
+
+/// Metres: the required distance of a pair of instances (see StateChecker). Two instances of the robot have none.
+double requiredDistance(const CollisionProblem& problem, const InstancePair& pair);
 
 /// Transforms a half-space by `pose`. The normal is normalised again, because the rotation of a pose is orthonormal
 /// only up to rounding.
@@ -94,9 +95,6 @@ inline bool isValidFor(const CollisionProblem& problem, const double* state)
 {
   return withinRanges(problem.ranges, state);
 }
-
-/// Throws Error unless the tolerance is finite and at least 0.
-void validateTolerance(double tolerance);
 
 /// Makes the collision problem of `pairs`. validateScene must have accepted the scene. The problem has all bodies of
 /// `pairs`, but only those instance pairs that the group moves. So trees and instances do not depend on the group, and

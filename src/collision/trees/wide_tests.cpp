@@ -1,5 +1,7 @@
 #include "collision/trees/wide_tests.h"
 
+#include "base/instruction_sets.h"
+
 namespace gpu_planning_scene::core
 {
 unsigned overlapAvx2(const WideNode& node, const FloatBox& box);
@@ -13,7 +15,7 @@ const std::vector<WideTests>& availableWideTests()
   {
     std::vector<WideTests> found;
 #ifdef __x86_64__
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    if (hasAvx2())
       found.push_back({"AVX2", overlapAvx2, nearTrianglesAvx2});
 #endif
     found.push_back({"baseline", overlapBaseline, nearTrianglesBaseline});

@@ -77,7 +77,7 @@ void LeaderScene::apply(const PlanningSceneMessage& message)
 SceneChange LeaderScene::changeOf(const PlanningSceneMessage& message) const
 {
   if (message.setup != setup_)
-    throw Error("it has another robot, or other default paddings or tolerance, than this node: give both nodes the " +
+    throw Error("it has another robot, or other default paddings, than this node: give both nodes the " +
                 std::string("same parameters"));
   SceneChange change = changeFrom(message, *store_.snapshot().scene->robot, store_.limits(), nullptr);
   takeExactNumbers(message, change);

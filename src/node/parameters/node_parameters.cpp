@@ -192,7 +192,6 @@ BatchCheckerOptions checkerOptionsFromParameters(const ros::NodeHandle& own)
   if (own.hasParam("traversal"))
     options.traversal = traversalFromName(textParameter(own, "traversal", ""));
   options.max_batch = countParameter(own, "max_batch", options.max_batch, 1, std::size_t{1} << 24);
-  options.tolerance = lengthParameter(own, "tolerance", options.tolerance);
   options.device_only = own.param("device_only", options.device_only);
   options.limits.device_seconds = positiveParameter(own, "device_timeout", options.limits.device_seconds);
   options.limits.max_losses = countParameter(own, "device_losses", options.limits.max_losses, 1, 1000);

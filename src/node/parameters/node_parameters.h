@@ -24,7 +24,7 @@ namespace gpu_planning_scene::core
 PlanningScene sceneFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneDefaults& defaults,
                                   std::vector<std::string>* warnings);
 
-/// ~device, ~traversal, ~max_batch, ~tolerance, ~device_only, ~device_timeout, ~device_losses and ~device_retry.
+/// ~device, ~traversal, ~max_batch, ~device_only, ~device_timeout, ~device_losses and ~device_retry.
 BatchCheckerOptions checkerOptionsFromParameters(const ros::NodeHandle& own);
 
 /// The parameters ~limits/ of a scene.

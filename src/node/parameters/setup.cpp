@@ -27,8 +27,7 @@ class Hash
 };
 }  // namespace
 
-std::uint64_t setupFromParameters(const ros::NodeHandle& node, const ros::NodeHandle& own, const RobotModel& robot,
-                                  const SceneDefaults& defaults)
+std::uint64_t setupFromParameters(const ros::NodeHandle& node, const RobotModel& robot, const SceneDefaults& defaults)
 {
   Hash hash;
   for (const char* name : {"robot_description", "robot_description_semantic"})
@@ -48,7 +47,6 @@ std::uint64_t setupFromParameters(const ros::NodeHandle& node, const ros::NodeHa
   }
   hash.add(defaults.object_padding);
   hash.add(defaults.attached_padding);
-  hash.add(lengthParameter(own, "tolerance", 0.0));
   return hash.value;
 }
 }  // namespace gpu_planning_scene::core

@@ -10,6 +10,7 @@
 #include <ompl/base/StateSpaceTypes.h>
 #include <ompl/util/Exception.h>
 
+#include "base/instruction_sets.h"
 #include "base/math_constants.h"
 
 // The distances are those of OMPL's spaces: the length of the difference in R^n, the smaller arc in SO(2), the angle
@@ -107,8 +108,8 @@ GPS_NEAREST_FUNCTIONS(Avx512, [[gnu::target("avx512f")]]);
 const Functions& fastest()
 {
 #ifdef __x86_64__
-  static const bool has_avx512 = __builtin_cpu_supports("avx512f") != 0;
-  static const bool has_avx2 = __builtin_cpu_supports("avx2") != 0;
+  static const bool has_avx512 = hasAvx512();
+  static const bool has_avx2 = hasAvx2();
   if (has_avx512 || has_avx2)
     return has_avx512 ? kAvx512 : kAvx2;
 #endif

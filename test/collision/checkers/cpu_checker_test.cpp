@@ -133,10 +133,15 @@ TEST(OpenChecker, TheCpuTakesTheOptions)
   BatchCheckerOptions options;
   options.device = "cpu";
   const auto scene = std::make_shared<PlanningScene>(robotOf(armUrdf()));
-  EXPECT_EQ(openChecker(scene, options, [](const std::string&) {})->deviceName(), "CPU");
-  options.tolerance = -1.0;
-  EXPECT_NE(errorOf([&] { openChecker(scene, options, [](const std::string&) {}); }).find("tolerance"),
-            std::string::npos);
+  const auto shared_trees = [&]
+  {
+    const auto checker = openChecker(scene, options, [](const std::string&) {});
+    EXPECT_EQ(checker->deviceName(), "CPU");
+    return checker->report().shared_trees;
+  };
+  EXPECT_GT(shared_trees(), 0u);
+  options.reductions.shared_trees = false;
+  EXPECT_EQ(shared_trees(), 0u);
 }
 
 TEST_F(CpuCheckerTest, RefusesWhatItCannotCheckAndGoesOn)

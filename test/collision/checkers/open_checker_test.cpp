@@ -146,9 +146,6 @@ TEST_F(OpenChecker, AWrongInputIsAnErrorAndNoFaultOfTheDevice)
   options.max_batch = 0;
   EXPECT_NE(errorOf([&] { openChecker(test_.scene, options, warn); }).find("max_batch"), std::string::npos);
   options = {};
-  options.tolerance = -1.0;
-  EXPECT_NE(errorOf([&] { openChecker(test_.scene, options, warn); }).find("tolerance"), std::string::npos);
-  options = {};
   const auto checker = openChecker(test_.scene, options, warn);
   auto wrong = std::make_shared<PlanningScene>(*test_.scene);
   wrong->objects.at(0).pose.translation().x() = std::nan("");

@@ -247,13 +247,15 @@ TEST_F(Replicas, RefuseRequestsWhileTheLeaderIsAwayAndTakeTheSceneOfItsNextRun)
 
 TEST_F(Replicas, DoNotFollowANodeWithAnotherRobotOrOtherSettings)
 {
-  const ChildNode tolerant("tolerant", {"_device:=cpu", "_tolerance:=0.01", "_follow:=/planning_scene"});
+  ros::NodeHandle().setParam("/other_padding", 0.01);
+  const ChildNode other("other", {"_device:=cpu", "_follow:=/planning_scene",
+                                  "robot_description_planning/default_object_padding:=/other_padding"});
   std::string message;
   EXPECT_TRUE(becomes(
       [&]
       {
-        message = checkWith(tolerant, stateRequest(free_state)).message;
-        return message.find("other default paddings or tolerance") != std::string::npos;
+        message = checkWith(other, stateRequest(free_state)).message;
+        return message.find("another robot, or other default paddings") != std::string::npos;
       }))
       << message;
 }

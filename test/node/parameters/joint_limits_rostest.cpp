@@ -136,7 +136,7 @@ TEST_F(LimitParameters, OfUnknownJointsGiveAWarning)
 
 TEST_F(LimitParameters, ThatDifferMakeAnotherSetup)
 {
-  const auto setup = [this] { return setupFromParameters(node, own, *load().robot, defaults); };
+  const auto setup = [this] { return setupFromParameters(node, *load().robot, defaults); };
   const std::uint64_t before = setup();
   EXPECT_EQ(before, setup());
   node.setParam(limits + "slide/max_position", 1.0);

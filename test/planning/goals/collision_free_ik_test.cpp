@@ -102,7 +102,7 @@ TEST(CollisionFreeIk, RealArmsReachThePosesOfFreeStates)
       expectLimitsKept(arm, given, state);
       rows.insert(rows.end(), state.begin(), state.end());
     }
-    CpuChecker other(scene, CheckerOptions{0.0, Reductions::none()});
+    CpuChecker other(scene, CheckerOptions{Reductions::none()});
     const BatchResult checked = other.check(rows.data(), results.size());
     EXPECT_EQ(checked.valid, std::vector<std::uint8_t>(results.size(), 1));
     EXPECT_EQ(compareWithFcl(*scene, rows, checked).failures, std::vector<std::string>());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "collision/cpu/lanes/lane_kinematics.h"
+#include "collision/geometry/eight_boxes.h"
 
 namespace gpu_planning_scene::core::lanes
 {
@@ -36,9 +37,8 @@ inline const float* placedBox(const Model& model, const Scratch& scratch, std::u
   return placed;
 }
 
-/// Tests the boxes of a pair by their 15 possible separating axes (Gottschalk, Lin and Manocha, "OBBTree", 1996).
-/// `margin`: the required distance, because two links have no padding. Returns the lanes of `wanted` in which the
-/// instances may be near each other.
+/// Tests the boxes of a pair, see eight_boxes.h. `margin`: the required distance, because two links have no padding.
+/// Returns the lanes of `wanted` in which the instances may be near each other.
 inline int nearByBoxes(const Model& model, const Scratch& scratch, const SelfPair& pair, const Floats& margin,
                        int wanted)
 {
@@ -55,40 +55,19 @@ inline int nearByBoxes(const Model& model, const Scratch& scratch, const SelfPai
     for (std::size_t j = 0; j < 3; ++j)
       axes_b[j][k] = load(group(box_b, 3 * j + k));
   }
-  Floats r[3][3];  // the axes of the second box in the frame of the first
-  Floats abs_r[3][3];
-  Floats t[3];
-  Ints apart = {};
+  EightBoxPairs pairs;
   for (std::size_t i = 0; i < 3; ++i)
   {
     const Floats axis[3] = {load(group(box_a, 3 * i)), load(group(box_a, 3 * i + 1)), load(group(box_a, 3 * i + 2))};
     for (std::size_t j = 0; j < 3; ++j)
     {
-      r[i][j] = sumOfProducts(axis, axes_b[j]);
-      abs_r[i][j] = magnitude(r[i][j]) + pair.boxes.parallel;
+      pairs.axes[i][j] = sumOfProducts(axis, axes_b[j]);
+      pairs.magnitudes[i][j] = magnitude(pairs.axes[i][j]) + pair.boxes.parallel;
     }
-    t[i] = sumOfProducts(axis, between);
-    apart |= magnitude(t[i]) > a[i] + sumOfProducts(abs_r[i], b);
+    pairs.between[i] = sumOfProducts(axis, between);
   }
-  for (std::size_t j = 0; j < 3; ++j)
-    apart |= magnitude(t[0] * r[0][j] + t[1] * r[1][j] + t[2] * r[2][j]) >
-             a[0] * abs_r[0][j] + a[1] * abs_r[1][j] + a[2] * abs_r[2][j] + b[j];
-  if ((wanted & ~bits(apart)) == 0)
-    return 0;
-  for (std::size_t i = 0; i < 3; ++i)
-  {
-    const std::size_t i1 = (i + 1) % 3;
-    const std::size_t i2 = (i + 2) % 3;
-    for (std::size_t j = 0; j < 3; ++j)
-    {
-      const std::size_t j1 = (j + 1) % 3;
-      const std::size_t j2 = (j + 2) % 3;
-      apart |= magnitude(t[i2] * r[i1][j] - t[i1] * r[i2][j]) >
-               a[i1] * abs_r[i2][j] + a[i2] * abs_r[i1][j] + b[j1] * abs_r[i][j2] + b[j2] * abs_r[i][j1];
-    }
-  }
-  // A comparison with NaN is false, so it keeps the pair.
-  return wanted & ~bits(apart);
+  wanted &= ~bits(pairs.apartByFaces(a, b));
+  return wanted == 0 ? 0 : wanted & ~bits(pairs.apartByEdges(a, b));
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core::lanes

@@ -1,5 +1,7 @@
 #include "collision/cpu/lanes/lane_kernel.h"
 
+#include "base/instruction_sets.h"
+
 namespace gpu_planning_scene::core::lanes
 {
 void proveAvx512(const Model& model, const double* states, int count, const float* margins, const Scratch& scratch,
@@ -15,11 +17,9 @@ const std::vector<NamedKernel>& availableKernels()
   {
     std::vector<NamedKernel> found;
 #ifdef __x86_64__
-    const bool has_avx2 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
-    if (has_avx2 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512dq"))
+    if (hasAvx512())
       found.push_back({"AVX-512", proveAvx512});
-    if (has_avx2)
+    if (hasAvx2())
       found.push_back({"AVX2", proveAvx2});
 #endif
     found.push_back({"baseline", proveBaseline});

@@ -148,7 +148,6 @@ void GpuScene::setProblem(const CollisionProblem& problem)
   trees_.setShapes(problem.tessellations);
   tree_count_ = problem.tessellations.size();
   writeWorld(problem);
-  tolerance_ = static_cast<float>(problem.tolerance);
   writeInstances(problem);
   writeSolids(problem);
   writeHalfSpaces(problem);

@@ -40,7 +40,6 @@ class GpuScene
   /// The index of the first node of the primitives that are tested as solids, with one node for each instance. 0: none.
   std::uint32_t solidNodes() const { return solid_nodes_; }
   /// In metres; 0: exact.
-  float tolerance() const { return tolerance_; }
   /// Whether some pairs have a required distance.
   bool isPadded() const { return padded_; }
   /// Whether a part of a mesh bounds a solid.
@@ -66,7 +65,6 @@ class GpuScene
   std::uint32_t world_count_ = 0;
   std::uint32_t half_space_count_ = 0;
   std::uint32_t solid_nodes_ = 0;
-  float tolerance_ = 0.0F;
   bool padded_ = false;
   bool has_mesh_solids_ = false;
 };

@@ -21,8 +21,8 @@ BreadthFirst::BreadthFirst(const std::string& folder, const std::string& definit
   : arguments_(folder),
     sizes_(folder, "traversal/level_sizes.comp"),
     children_(folder, "traversal/level_children.comp", definitions),
-    overlap_(folder, "traversal/level_overlap.comp", definitions, TaskPrograms::Needs::All),
-    triangles_(folder, "traversal/level_triangles.comp", definitions, TaskPrograms::Needs::NoTolerance)
+    overlap_(folder, "traversal/level_overlap.comp", definitions),
+    triangles_(folder, "traversal/level_triangles.comp", definitions)
 {
 }
 
@@ -48,8 +48,6 @@ void BreadthFirst::start(BatchLists& lists, const TraversalTask& task)
   const Program& overlap = overlap_.forTask(task);
   const Program& triangles = triangles_.forTask(task);
   const std::array<const Program*, 3> level_programs = {&overlap, &sizes_, &children_};
-  if (task.endsEarly())
-    overlap.setFloat(LOCATION_TOLERANCE, task.tolerance);
   const std::uint32_t capacity = lists.capacity.node_pairs;
   std::uint32_t in_counter = (task.solids ? LIST_SOLID_ENTRIES : LIST_MESH_ENTRIES) + LIST_LENGTH;
   arguments_.prepare(in_counter, lists.capacity.root_pairs, LEVEL_GROUP, COUNTER_ENTRIES_ODD);

@@ -72,17 +72,16 @@ void BatchLists::clearCounters()
   counters.write(empty.data(), sizeof(empty));
 }
 
-TaskPrograms::TaskPrograms(std::string shader_folder, std::string name, std::string definitions, Needs needs)
-  : folder_(std::move(shader_folder)), name_(std::move(name)), definitions_(std::move(definitions)), needs_(needs)
+TaskPrograms::TaskPrograms(std::string shader_folder, std::string name, std::string definitions)
+  : folder_(std::move(shader_folder)), name_(std::move(name)), definitions_(std::move(definitions))
 {
 }
 
 const Program& TaskPrograms::forTask(const TraversalTask& task)
 {
-  const bool tolerant = task.tolerance > 0.0F && needs_ != Needs::NoTolerance;
   // The programs for solids always handle required distances.
   const bool padded = task.padded && !task.solids;
-  auto& program = programs_[(task.solids ? 4 : 0) + (padded ? 2 : 0) + (tolerant ? 1 : 0)];
+  auto& program = programs_[task.solids ? 2 : padded ? 1 : 0];
   if (!program)
   {
     std::string definitions = definitions_;
@@ -90,8 +89,6 @@ const Program& TaskPrograms::forTask(const TraversalTask& task)
       definitions += "#define SOLIDS 1\n";
     if (padded)
       definitions += "#define PADDED 1\n";
-    if (tolerant)
-      definitions += "#define TOLERANT 1\n";
     program.emplace(folder_, name_, definitions);
   }
   return *program;

@@ -56,11 +56,7 @@ struct TraversalTask
 {
   bool solids = false;       ///< true: pairs of a mesh and a solid; false: pairs of two meshes
   bool padded = false;       ///< some pairs have a required distance
-  float tolerance = 0.0F;    ///< metres
   std::uint32_t levels = 1;  ///< upper bound of the levels of a tree
-
-  /// Whether two nodes may prove a collision, see shaders/traversal/tolerance.glsl.
-  bool endsEarly() const { return tolerance > 0.0F || (padded && !solids); }
 };
 
 /// The programs of one shader, one for each kind of task. A program is compiled when it is first needed. The reason for
@@ -68,19 +64,12 @@ struct TraversalTask
 class TaskPrograms
 {
  public:
-  /// The properties of a task that affect a shader.
-  enum class Needs
-  {
-    All,
-    NoTolerance
-  };
-  TaskPrograms(std::string shader_folder, std::string name, std::string definitions, Needs needs);
+  TaskPrograms(std::string shader_folder, std::string name, std::string definitions);
   const Program& forTask(const TraversalTask& task);
 
  private:
   std::string folder_, name_, definitions_;
-  Needs needs_;
-  std::array<std::optional<Program>, 8> programs_;
+  std::array<std::optional<Program>, 3> programs_;
 };
 
 /// Traverses the trees of all root pairs of a batch down to the leaves, and tests the triangles of each pair of

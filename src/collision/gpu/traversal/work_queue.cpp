@@ -13,8 +13,6 @@ void WorkQueue::start(BatchLists& lists, const TraversalTask& task)
 {
   const Program& program = programs_.forTask(task);
   program.set(LOCATION_ENTRY_CAPACITY, lists.capacity.node_pairs);
-  if (task.endsEarly())
-    program.setFloat(LOCATION_TOLERANCE, task.tolerance);
   const TexelBuffer& entries = task.solids ? lists.solid_entries : lists.mesh_entries;
   TexelBuffer& rest = lists.node_pairs[task.solids ? 0 : 1];
   const std::uint32_t entry_list = task.solids ? LIST_SOLID_ENTRIES : LIST_MESH_ENTRIES;

@@ -11,7 +11,7 @@ class WorkQueue : public GpuTraversal
 {
  public:
   WorkQueue(const std::string& shader_folder, const std::string& definitions)
-    : programs_(shader_folder, "traversal/work_queue.comp", definitions, TaskPrograms::Needs::All)
+    : programs_(shader_folder, "traversal/work_queue.comp", definitions)
   {
   }
   void prepare(const TraversalTask& task) override { programs_.forTask(task); }
