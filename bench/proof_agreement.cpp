@@ -72,7 +72,7 @@ class Comparison
       exact_(scene.scene, withoutProofs()),
       with_proofs_(makeChecker(scene.scene, device)),
       problem_(std::make_shared<const CollisionProblem>(makeProblem(*scene.scene, "", nullptr))),
-      exact_(ForestCache().exactCheckerOf(problem_)),
+      pairs_checker_(ForestCache().exactCheckerOf(problem_)),
       pairs_(makePairs())
   {
     std::size_t checked = 0;
@@ -115,21 +115,22 @@ class Comparison
   {
     std::atomic<std::size_t> count{0};
     const RobotModel& robot = *scene_.scene->robot;
-    parallelFor(kBatch, kStatesPerChunk,
-                [&, scratch = ExactChecker::Scratch(), poses = std::vector<Eigen::Isometry3d>(robot.links().size()),
-                 steps = std::vector<std::uint64_t>()](std::size_t begin, std::size_t end) mutable
-                {
-                  for (std::size_t i = begin; i < end; ++i)
-                  {
-                    if (proven.valid[i] || proven.colliding[i] == exact.colliding[i])
-                      continue;
-                    robot.linkPoses(&states[i * width_], poses.data());
-                    const auto pairs = pairs_.find(proven.colliding[i]);
-                    if (pairs == pairs_.end() || !exact_->firstCollisionOf(pairs->second.data(), pairs->second.size(),
+    parallelFor(
+        kBatch, kStatesPerChunk,
+        [&, scratch = ExactChecker::Scratch(), poses = std::vector<Eigen::Isometry3d>(robot.links().size()),
+         steps = std::vector<std::uint64_t>()](std::size_t begin, std::size_t end) mutable
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            if (proven.valid[i] || proven.colliding[i] == exact.colliding[i])
+              continue;
+            robot.linkPoses(&states[i * width_], poses.data());
+            const auto pairs = pairs_.find(proven.colliding[i]);
+            if (pairs == pairs_.end() || !pairs_checker_->firstCollisionOf(pairs->second.data(), pairs->second.size(),
                                                                            poses.data(), scratch, steps))
-                      ++count;
-                  }
-                });
+              ++count;
+          }
+        });
     return count;
   }
 
@@ -165,7 +166,7 @@ class Comparison
   CpuChecker exact_;
   std::unique_ptr<StateChecker> with_proofs_;
   std::shared_ptr<const CollisionProblem> problem_;
-  std::unique_ptr<const ExactChecker> exact_;
+  std::unique_ptr<const ExactChecker> pairs_checker_;
   std::map<BodyPair, std::vector<ExactChecker::OpenPair>> pairs_;
 };
 
