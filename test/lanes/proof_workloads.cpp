@@ -3,6 +3,7 @@
 #include <random>
 
 #include "collision/bounds/problem_maker.h"
+#include "collision/cpu/lanes/lane_scene.h"
 #include "collision/exact/forest_cache.h"
 #include "collision/gpu/gpu_checker.h"
 #include "collision/gpu/sliding_balls.h"
@@ -132,7 +133,9 @@ std::vector<std::string> checkNearContact(const Proven& proven, const std::strin
   options.max_batch = kStates;
   GpuChecker checker(options);
   checker.setProblem(proven.problem, proven.scene->robot);
-  checker.useProofs(checker.laneSceneOf(std::make_shared<const RobotProofs>(proven.proofs)));
+  checker.useProofs(std::make_shared<const LaneScene>(*proven.scene->robot, *proven.problem, *proven.forest.forest(),
+                                                      std::make_shared<const RobotProofs>(proven.proofs),
+                                                      lanes::kDeviceRounding));
   BatchResult result;
   checker.check(states.data(), kStates, result);
   std::vector<std::string> wrong;

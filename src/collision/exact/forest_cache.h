@@ -16,7 +16,7 @@ class ForestCache
  public:
   std::unique_ptr<const ExactChecker> exactCheckerOf(std::shared_ptr<const CollisionProblem> problem);
 
-  /// The trees of the last traversal; null before the first one.
+  /// The trees of the last checker; null before the first one.
   const std::shared_ptr<const CpuForest>& forest() const { return forest_; }
   const std::shared_ptr<const ObjectTree>& objects() const { return objects_; }
 

@@ -151,12 +151,6 @@ void GpuChecker::selectPairs(std::shared_ptr<const CollisionProblem> problem)
   on_cpu_.reset();
 }
 
-std::shared_ptr<const LaneScene> GpuChecker::laneSceneOf(const std::shared_ptr<const RobotProofs>& proofs)
-{
-  makeTraversal();
-  return std::make_shared<const LaneScene>(*robot_, *problem_, *trees_->forest(), proofs, lanes::kDeviceRounding);
-}
-
 void GpuChecker::useProofs(const std::shared_ptr<const LaneScene>& scene)
 {
   if (!scene || scene == proofs_)

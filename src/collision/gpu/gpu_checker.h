@@ -48,9 +48,6 @@ class GpuChecker
   /// it. If the device does not take it, `fault` says so, and trees decide all pairs.
   void useProofs(const std::shared_ptr<const LaneScene>& scene);
 
-  /// Makes the scene for useProofs from the robot's proofs.
-  std::shared_ptr<const LaneScene> laneSceneOf(const std::shared_ptr<const RobotProofs>& proofs);
-
   /// Checks the states of `parts` until there is none, and brings their verdicts. `states`: rows of the robot's
   /// variables, each in PlaceableStates. `margins`: for these states and the selected pairs; null: none.
   void check(const double* states, PartSource& parts, const Margins* margins = nullptr);

@@ -81,7 +81,7 @@ class GpuProofsOfScenes : public testing::TestWithParam<const char*>
       checkers_[proofs ? 1 : 0] = std::make_unique<GpuChecker>(options);
       checkers_[proofs ? 1 : 0]->setProblem(proven_->problem, proven_->scene.scene->robot);
     }
-    checkers_[1]->useProofs(checkers_[1]->laneSceneOf(proven_->proofs));
+    checkers_[1]->useProofs(proven_->ofDevice());
     EXPECT_EQ(checkers_[1]->fault(), "");
   }
 
@@ -165,7 +165,7 @@ TEST(GpuProofs, FramesThatTheDeviceMisplacesAreFound)
   GpuChecker checker(options);
   checker.setProblem(proven.problem, proven.scene.scene->robot);
   EXPECT_EQ(checker.fault(), "");
-  checker.useProofs(checker.laneSceneOf(proven.proofs));
+  checker.useProofs(proven.ofDevice());
   EXPECT_NE(checker.fault().find("is elsewhere than the robot model says; trees decide all pairs"), std::string::npos)
       << checker.fault();
 }

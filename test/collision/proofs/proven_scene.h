@@ -22,6 +22,13 @@ struct ProvenScene
   std::unique_ptr<const ExactChecker> exact;
   std::shared_ptr<const RobotProofs> proofs;
   std::unique_ptr<const LaneScene> lanes;
+
+  /// For GpuChecker::useProofs.
+  std::shared_ptr<const LaneScene> ofDevice() const
+  {
+    return std::make_shared<const LaneScene>(*scene.scene->robot, *problem, *forest.forest(), proofs,
+                                             lanes::kDeviceRounding);
+  }
 };
 
 /// A scene with proofs that are made now.
