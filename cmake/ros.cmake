@@ -8,7 +8,7 @@ foreach(name PYTHON_EXECUTABLE Python3_EXECUTABLE)
   endif()
 endforeach()
 
-find_package(catkin REQUIRED COMPONENTS diagnostic_msgs geometry_msgs message_generation pluginlib roscpp roslib
+find_package(catkin REQUIRED COMPONENTS actionlib_msgs diagnostic_msgs geometry_msgs message_generation pluginlib roscpp roslib
   sensor_msgs shape_msgs std_msgs tf2 tf2_ros trajectory_msgs visualization_msgs)
 
 set(message_dependencies diagnostic_msgs geometry_msgs sensor_msgs shape_msgs std_msgs trajectory_msgs)
@@ -36,6 +36,7 @@ add_message_files(FILES
   PositionConstraint.msg
   RobotState.msg
   Status.msg
+  WatchState.msg
   WorkspaceParameters.msg)
 add_service_files(FILES
   ApplyPlanningScene.srv
@@ -49,7 +50,8 @@ add_service_files(FILES
   GetPlanningScene.srv
   GetReport.srv
   PlanMotion.srv
-  ShowTreeLevel.srv)
+  ShowTreeLevel.srv
+  WatchTrajectory.srv)
 generate_messages(DEPENDENCIES ${message_dependencies})
 
 # Only the libraries without ROS are exported, so that their users need no roscpp.

@@ -10,6 +10,7 @@
 #include "bindings/state_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
+#include "gpu_planning_scene/planning/trajectory_watch.h"
 
 namespace gpu_planning_scene::python
 {
@@ -83,6 +84,26 @@ MotionVerdicts checkMotions(const SharedMotionChecker& checker, const py::object
   return {std::move(verdicts)};
 }
 
+core::MotionOutlook outlookAt(const SharedMotionChecker& checker, const std::vector<double>& seconds,
+                              const py::object& states, Arg<double> now)
+{
+  const core::RobotModel& robot = *checker.robot;
+  const Rows rows = rowsFrom(states, robot, "states", nullptr);
+  core::WatchedTrajectory trajectory;
+  const std::size_t width = robot.variables().size();
+  for (std::size_t i = 0; i < width; ++i)
+    trajectory.columns.push_back(static_cast<int>(i));
+  trajectory.rows = {seconds, {rows.data(), rows.data() + rows.count * width}};
+  core::validateTrajectory(trajectory);
+  const std::vector<double> none(width, 0.0);  // no variable is without a trajectory
+  return withoutLock(
+      [&]
+      {
+        const SharedChecker::Call call(*checker.checker);
+        return outlookOf(checker.motions, robot, motionOfAll(robot, {&trajectory}, {0.0}, none, now.value));
+      });
+}
+
 /// An array of one member of all verdicts, whose values are `width` numbers of type T.
 template <typename T, typename Member>
 py::array membersOf(const py::object& self, Member MotionVerdict::*member, py::ssize_t width = 0)
@@ -137,8 +158,22 @@ void addMotionChecker(py::module_& module)
       .def_property_readonly(
           "given_up", [](const py::object& self) { return membersOf<bool>(self, &MotionVerdict::given_up); },
           "True: max_checks ended the checks of this motion too early. Shape (n,), bool.")
-      .def(
-          "__len__", [](const MotionVerdicts& verdicts) { return verdicts.all.size(); });
+      .def("__len__", [](const MotionVerdicts& verdicts) { return verdicts.all.size(); });
+  using core::MotionOutlook;
+  py::class_<MotionOutlook>(
+      module, "MotionOutlook",
+      "What is known about the rest of a trajectory: the answer of MotionChecker.outlook. Times are those of its rows.")
+      .def_readonly("free", &MotionOutlook::free, "True: the rest is free by the checker's rule.")
+      .def_readonly("free_until", &MotionOutlook::free_until, "Seconds: the trajectory is free up to this time.")
+      .def_readonly("collision", &MotionOutlook::collision,
+                    "Seconds: the first sample that collides, or around which the rest is not proven free; inf if the "
+                    "rest is free.")
+      .def_readonly("colliding", &MotionOutlook::colliding,
+                    "The body indices of a pair that collides then; -1, -1 if the rest is only not proven free.")
+      .def_readonly("brake_by", &MotionOutlook::brake_by,
+                    "Seconds: the latest time at which the robot can begin to brake along the trajectory so that it "
+                    "stands at free_until. The limits are Variable.max_acceleration, 1 if there is none. inf if the "
+                    "rest is free, -inf if it is too late.");
   py::class_<SharedMotionChecker>(
       module, "MotionChecker",
       "Checks straight motions between states, many at once.\n\nchecker: a StateChecker; the motions are checked in "
@@ -172,6 +207,13 @@ void addMotionChecker(py::module_& module)
            "\"valid\" ends at the first collision; \"last_valid\" also finds up to which fraction a motion is valid; "
            "\"samples\" uses the rule \"samples\". Returns MotionVerdicts.\n\nRaises Error for other shapes, for "
            "another number of ends, and for values that are not finite. Ctrl-C ends a long call.")
+      .def("outlook", &outlookAt, py::arg("seconds"), py::arg("states"), py::arg("now"),
+           "Checks what is still to come of a trajectory that a robot executes, for example after a change of the "
+           "scene (StateChecker.set_scene).\n\nseconds: the times of the rows, increasing. states: shape "
+           "(n, variables), radians and metres; between two rows, the motion is straight. now: seconds; what has "
+           "passed by then does not count. Make the checker without a group, so that all pairs count. Returns a "
+           "MotionOutlook.\n\nRaises Error for times that do not increase, for other shapes, and for values that "
+           "are not finite.")
       .def_property_readonly(
           "states_checked", [](const SharedMotionChecker& self) { return self.motions.statesChecked(); },
           "Number of states checked so far, with and without margins.");

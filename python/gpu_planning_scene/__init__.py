@@ -29,6 +29,7 @@ __all__ = [
     "Link",
     "Mesh",
     "MotionChecker",
+    "MotionOutlook",
     "MotionVerdicts",
     "NamedState",
     "PlanningResult",

@@ -27,6 +27,7 @@
 #include "node/scene/scene_topics.h"
 #include "node/shutdown_call.h"
 #include "node/shutdown_deadline.h"
+#include "node/watch/trajectory_watcher.h"
 #include "scene/frame.h"
 
 namespace gpu_planning_scene::core
@@ -100,10 +101,9 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   };
   PlanService plans(own, store, others, make_cpu_checker, memory, show_plan, plan_options);
   plans.prepare();
-  KinematicsServices kinematics(
-      store, others, make_cpu_checker,
-      [&checks](const std::shared_ptr<const PlanningScene>& of) { return checks.inspectorOf(of); }, memory,
-      kinematics_options);
+  const auto inspector_of = [&checks](const std::shared_ptr<const PlanningScene>& of)
+  { return checks.inspectorOf(of); };
+  KinematicsServices kinematics(store, others, make_cpu_checker, inspector_of, memory, kinematics_options);
   SceneServices changes(store, look_up, memory, setup);
   CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);
   MarkerPublisher markers(own, store, options.marker_rate, options.marker_triangles);
@@ -134,6 +134,12 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
     if (const std::string fault = leader ? leader->changeFault() : moveit.changeFault(); !fault.empty())
       throw Error(fault);
   };
+
+  WatcherOptions watcher_options;
+  watcher_options.rate = options.watch_rate;
+  watcher_options.motions.steps = plan_options.motions.steps;
+  watcher_options.motions.max_checks = options.max_motion_checks;
+  TrajectoryWatcher watcher(node, own, store, make_cpu_checker, inspector_of, require_scene, watcher_options);
 
   Endpoints change_requests(node, own, 3, diagnostics, require_own_scene);
   change_requests.advertise<ApplyPlanningScene>(
@@ -168,6 +174,10 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   kinematics_requests.advertise<ComputeFk>("compute_fk",
                                            [&](const ComputeFk::Request& r) { return kinematics.computeFk(r); });
 
+  Endpoints watch_requests(node, own, 3, diagnostics, require_scene);
+  watch_requests.advertise<WatchTrajectory>("watch_trajectory",
+                                            [&](const WatchTrajectory::Request& r) { return watcher.watch(r); });
+
   // Each waiting request occupies a thread, and a thread must be free to answer "busy" immediately. Up to
   // max_waiting_requests requests each can be in the two running batches of small requests, in their queue, in the
   // queue of large requests, in the queue for contacts, and waiting for a revision. check_states is advertised last:
@@ -194,8 +204,9 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   // that send the answers are joined.
   stopping = true;
   deadline.emplace(kLongestEnd);
-  const std::array<Endpoints*, 7> endpoints = {{&state_topics, &cloud_topics, &change_requests, &scene_requests,
-                                                &plan_requests, &kinematics_requests, &check_requests}};
+  const std::array<Endpoints*, 8> endpoints = {{&state_topics, &cloud_topics, &change_requests, &scene_requests,
+                                                &plan_requests, &kinematics_requests, &watch_requests,
+                                                &check_requests}};
   for (Endpoints* some : endpoints)
     some->close();
   scene_topics.close();
@@ -203,6 +214,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   checks.stop();
   plans.stop();
   kinematics.stop();
+  watcher.stop();
   server.stop();
   scene_topics.stop();
   moveit.stop();

@@ -21,6 +21,18 @@ def motions(scene, **options):
 
 
 class MotionChecker(Case):
+    def test_the_outlook_of_a_trajectory_is_that_of_its_rest(self):
+        checker = motions(wall_scene(0.1))
+        seconds, states = [0.0, 1.0, 2.0], [[-1.0], [0.0], [1.0]]
+        blocked = checker.outlook(seconds, states, now=0.5)
+        self.assertFalse(blocked.free)
+        self.assertLessEqual(blocked.free_until, blocked.collision)
+        self.assertLess(blocked.brake_by, blocked.free_until)
+        self.assertNotEqual([-1, -1], list(blocked.colliding))
+        self.assertTrue(checker.outlook(seconds, states, now=2.0).free)
+        self.assert_one_line(gps.Error, "row 1", checker.outlook, [0.0, 0.0, 1.0], states, 0.0)
+        self.assert_one_line(gps.Error, "3 values for 2 rows", checker.outlook, [0.0, 1.0], states, 0.0)
+
     def test_a_motion_is_valid_up_to_the_wall(self):
         # The ball has a radius of 0.1 m, so it meets the wall at x = 0.85.
         for rule in ("bound", "samples"):

@@ -22,6 +22,8 @@
 #include <gpu_planning_scene/PlanningSceneComponents.h>
 #include <gpu_planning_scene/ShowTreeLevel.h>
 #include <gpu_planning_scene/Status.h>
+#include <gpu_planning_scene/WatchState.h>
+#include <gpu_planning_scene/WatchTrajectory.h>
 
 namespace gpu_planning_scene::core
 {

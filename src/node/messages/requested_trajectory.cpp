@@ -68,12 +68,11 @@ const Joint& multiDofJoint(const RobotModel& robot, const std::string& name)
 }
 }  // namespace
 
-RequestedTrajectory requestedTrajectory(const RobotModel& robot, const CheckTrajectory::Request& request)
+RequestedTrajectory requestedTrajectory(const RobotModel& robot, const trajectory_msgs::JointTrajectory& joints,
+                                        const trajectory_msgs::MultiDOFJointTrajectory& transforms)
 {
   constexpr const char* kJoints = "joint_trajectory";
   constexpr const char* kMultiDof = "multi_dof_joint_trajectory";
-  const trajectory_msgs::JointTrajectory& joints = request.joint_trajectory;
-  const trajectory_msgs::MultiDOFJointTrajectory& transforms = request.multi_dof_joint_trajectory;
   requireBoth(kJoints, joints.joint_names.size(), joints.points.size());
   requireBoth(kMultiDof, transforms.joint_names.size(), transforms.points.size());
   if (joints.points.empty() && transforms.points.empty())

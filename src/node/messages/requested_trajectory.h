@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <vector>
 
+#include <trajectory_msgs/JointTrajectory.h>
+#include <trajectory_msgs/MultiDOFJointTrajectory.h>
+
 #include "gpu_planning_scene/robot_model.h"
-#include "node/messages/messages.h"
 
 namespace gpu_planning_scene::core
 {
@@ -16,8 +18,9 @@ struct RequestedTrajectory
   std::size_t waypoints = 0;
 };
 
-/// Reads both trajectories of the request. Throws Error that names the joint or the waypoint: for no waypoint, numbers
+/// Reads both trajectories of a request. Throws Error that names the joint or the waypoint: for no waypoint, numbers
 /// of points or times that differ between the two trajectories, joints that the robot does not have or that have no
 /// value of their own, joints that are given twice, wrong numbers of values, and values that are not finite.
-RequestedTrajectory requestedTrajectory(const RobotModel& robot, const CheckTrajectory::Request& request);
+RequestedTrajectory requestedTrajectory(const RobotModel& robot, const trajectory_msgs::JointTrajectory& joints,
+                                        const trajectory_msgs::MultiDOFJointTrajectory& transforms);
 }  // namespace gpu_planning_scene::core

@@ -235,6 +235,7 @@ ServiceOptions serviceOptionsFromParameters(const ros::NodeHandle& own)
   options.max_contacts = countParameter(own, "limits/contacts", options.max_contacts, 1, kNoLimit);
   options.max_memory = countParameter(own, "limits/memory", 0, 0, std::size_t{1} << 52);
   options.max_waiting_changes = countParameter(own, "limits/waiting_changes", options.max_waiting_changes, 1, kNoLimit);
+  options.watch_rate = positiveParameter(own, "watch/rate", options.watch_rate);
   options.marker_rate = positiveParameter(own, "markers/rate", options.marker_rate);
   options.animation_rate = lengthParameter(own, "markers/animation_rate", options.animation_rate);
   options.marker_triangles = countParameter(own, "markers/triangles", options.marker_triangles, 0, kNoLimit);

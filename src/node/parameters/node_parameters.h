@@ -43,6 +43,7 @@ struct ServiceOptions
   std::size_t max_memory = 0;                ///< bytes; 0: 80 % of the machine's memory: ~limits/memory
   std::uint32_t message_size = 256U << 20;   ///< bytes: ~limits/message_size
   std::size_t max_waiting_changes = 100000;  ///< queued changes from topics: ~limits/waiting_changes
+  double watch_rate = 20.0;                  ///< per second: ~watch/rate
   double marker_rate = 2.0;                  ///< per second: ~markers/rate
   double animation_rate = 10.0;              ///< per second; 0: none: ~markers/animation_rate
   std::size_t marker_triangles = 500000;     ///< ~markers/triangles

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "gpu_planning_scene/motion_checker.h"
+#include "gpu_planning_scene/robot_model.h"
+
+namespace gpu_planning_scene::core
+{
+/// Rows of values at times. Between two rows, the robot moves straight and at a constant rate, see interpolate().
+/// Before the first row and after the last one, it stands.
+struct TimedRows
+{
+  std::vector<double> seconds;  ///< of each row, increasing
+  std::vector<double> values;   ///< row-major
+};
+
+/// A trajectory of some variables of the robot.
+struct WatchedTrajectory
+{
+  std::vector<int> columns;  ///< the variables of its rows, each once
+  TimedRows rows;
+};
+
+/// Throws Error that names the row unless there are rows, their times are finite and increase, and all values are
+/// finite numbers of whole rows.
+void validateTrajectory(const WatchedTrajectory& trajectory);
+
+/// The values of a trajectory's variables at a time.
+std::vector<double> rowAt(const RobotModel& robot, const WatchedTrajectory& trajectory, double time);
+
+/// Where the robot is on a trajectory.
+struct Progress
+{
+  double time = 0.0;       ///< seconds: the time of the nearest row
+  double deviation = 0.0;  ///< the largest difference of any variable from that row: radians or metres
+};
+
+/// The row between two times that is nearest to the values of the trajectory's variables, in the space of these values.
+/// Of equally near rows, the earliest.
+Progress nearestRow(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
+                    double earliest, double latest);
+
+/// The motion of the whole robot from a time to the end of the last trajectory: rows of all variables at the times of
+/// all rows. `delays`: seconds, one per trajectory: its rows come so much later. `state`: the values of the variables
+/// without a trajectory, one value per variable. No variable may be in two trajectories.
+TimedRows motionOfAll(const RobotModel& robot, const std::vector<const WatchedTrajectory*>& trajectories,
+                      const std::vector<double>& delays, const std::vector<double>& state, double from);
+
+/// What is known about a motion. All times are those of its rows.
+struct MotionOutlook
+{
+  bool free = false;        ///< the whole motion is free by the checker's rule
+  double free_until = 0.0;  ///< the motion is free by the rule up to this time; the first time if nothing is free
+  /// The first sample that collides, or around which the motion is not proven free. Infinity if the motion is free.
+  double collision = std::numeric_limits<double>::infinity();
+  BodyPair colliding = kNoPair;  ///< a pair that collides then; kNoPair if the motion is only not proven free
+  std::vector<double> state;     ///< the state at the time `collision`; empty if the motion is free
+  /// The latest time at which the robot can begin to brake so that it stands at `free_until`. It brakes along the
+  /// motion: the rate falls evenly to 0, and no joint decelerates by more than Variable::max_acceleration (as in
+  /// timePath, 1 if there is no limit). Accelerations of the motion itself do not count. Infinity if the motion is
+  /// free. Before the first time of the motion, it is too late.
+  double brake_by = std::numeric_limits<double>::infinity();
+};
+
+/// Checks a motion of the whole robot, as motionOfAll() makes it: by the samples and, under MotionRule::Bound, also
+/// between them. `checker`: of all pairs (group ""). Throws the errors of MotionChecker::check.
+MotionOutlook outlookOf(const MotionChecker& checker, const RobotModel& robot, const TimedRows& motion);
+}  // namespace gpu_planning_scene::core

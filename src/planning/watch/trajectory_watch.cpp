@@ -1,0 +1,202 @@
+#include "gpu_planning_scene/planning/trajectory_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/interpolation.h"
+#include "planning/watch/braking.h"
+
+// A motion of several trajectories is one motion of all their variables: at the times of all rows, every trajectory has
+// a row of its own or one between two of its rows, and between these times, all variables move straight. So bodies of
+// two trajectories are checked at the same time of the motion.
+namespace gpu_planning_scene::core
+{
+namespace
+{
+std::size_t widthOf(const WatchedTrajectory& trajectory)
+{
+  return trajectory.columns.size();
+}
+
+/// A full state with a row's values. Only the variables of the trajectory count.
+std::vector<double> fullState(const RobotModel& robot, const WatchedTrajectory& trajectory, const double* row)
+{
+  std::vector<double> state(robot.variables().size(), 0.0);
+  for (std::size_t i = 0; i < trajectory.columns.size(); ++i)
+    state[static_cast<std::size_t>(trajectory.columns[i])] = row[i];
+  return state;
+}
+
+/// Whether a whole turn of a variable changes nothing, one entry per variable.
+std::vector<bool> wrappingVariables(const RobotModel& robot)
+{
+  std::vector<bool> wraps(robot.variables().size(), false);
+  for (const Joint& joint : robot.joints())
+    if (!joint.mimic && joint.type == JointType::Continuous && isPeriodic(robot, joint))
+      wraps[static_cast<std::size_t>(joint.first_variable)] = true;
+    else if (!joint.mimic && joint.type == JointType::Planar)
+      wraps[static_cast<std::size_t>(joint.first_variable) + 2] = true;
+  return wraps;
+}
+
+double product(const std::vector<double>& a, const std::vector<double>& b)
+{
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+/// The part of a trajectory that contains a time, and the fraction of it. The time must be within its rows.
+struct Place
+{
+  std::size_t part;
+  double fraction;
+};
+
+Place placeOf(const std::vector<double>& seconds, double time)
+{
+  const auto after = std::upper_bound(seconds.begin(), seconds.end() - 1, time);
+  const auto part = static_cast<std::size_t>(after - seconds.begin()) - 1;
+  return {part, std::clamp((time - seconds[part]) / (seconds[part + 1] - seconds[part]), 0.0, 1.0)};
+}
+}  // namespace
+
+void validateTrajectory(const WatchedTrajectory& trajectory)
+{
+  const std::vector<double>& seconds = trajectory.rows.seconds;
+  const std::vector<double>& values = trajectory.rows.values;
+  if (seconds.empty() || values.size() != seconds.size() * widthOf(trajectory))
+    throw Error("the trajectory has " + std::to_string(values.size()) + " values for " +
+                std::to_string(seconds.size()) + " rows of " + std::to_string(widthOf(trajectory)) +
+                " variables; give whole rows, at least one");
+  for (std::size_t row = 0; row < seconds.size(); ++row)
+  {
+    if (!std::isfinite(seconds[row]) || (row > 0 && !(seconds[row] > seconds[row - 1])))
+      throw Error("row " + std::to_string(row) + " of the trajectory is at " + std::to_string(seconds[row]) +
+                  " s; the times of the rows must be finite and increase");
+    for (std::size_t i = 0; i < widthOf(trajectory); ++i)
+      if (!std::isfinite(values[row * widthOf(trajectory) + i]))
+        throw Error("row " + std::to_string(row) + " of the trajectory has a value that is not a finite number");
+  }
+}
+
+std::vector<double> rowAt(const RobotModel& robot, const WatchedTrajectory& trajectory, double time)
+{
+  const std::vector<double>& seconds = trajectory.rows.seconds;
+  const double* values = trajectory.rows.values.data();
+  const std::size_t width = widthOf(trajectory);
+  if (time <= seconds.front())
+    return {values, values + width};
+  if (time >= seconds.back())
+    return {values + (seconds.size() - 1) * width, values + seconds.size() * width};
+  const Place place = placeOf(seconds, time);
+  const std::vector<double> from = fullState(robot, trajectory, values + place.part * width);
+  const std::vector<double> to = fullState(robot, trajectory, values + (place.part + 1) * width);
+  std::vector<double> between(from.size());
+  interpolate(robot, from.data(), to.data(), place.fraction, between.data());
+  std::vector<double> row;
+  for (const int column : trajectory.columns)
+    row.push_back(between[static_cast<std::size_t>(column)]);
+  return row;
+}
+
+Progress nearestRow(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
+                    double earliest, double latest)
+{
+  const std::vector<bool> wraps = wrappingVariables(robot);
+  const auto difference = [&](const std::vector<double>& from, const std::vector<double>& to)
+  {
+    std::vector<double> found(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i)
+      found[i] = wraps[static_cast<std::size_t>(trajectory.columns[i])] ? shortestAngularDistance(from[i], to[i])
+                                                                        : to[i] - from[i];
+    return found;
+  };
+  std::vector<double> times = {earliest};
+  for (const double time : trajectory.rows.seconds)
+    if (time > earliest && time < latest)
+      times.push_back(time);
+  times.push_back(std::max(earliest, latest));
+
+  Progress nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t part = 0; part + 1 < times.size(); ++part)
+  {
+    const std::vector<double> from = rowAt(robot, trajectory, times[part]);
+    const std::vector<double> along = difference(from, rowAt(robot, trajectory, times[part + 1]));
+    const std::vector<double> away = difference(from, values);
+    const double squared = product(along, along);
+    const double fraction = squared > 0.0 ? std::clamp(product(away, along) / squared, 0.0, 1.0) : 0.0;
+    const double distance = product(away, away) - 2.0 * fraction * product(away, along) + fraction * fraction * squared;
+    if (distance >= least)
+      continue;
+    least = distance;
+    nearest.time = times[part] + fraction * (times[part + 1] - times[part]);
+    nearest.deviation = 0.0;
+    for (std::size_t i = 0; i < away.size(); ++i)
+      nearest.deviation = std::max(nearest.deviation, std::abs(away[i] - fraction * along[i]));
+  }
+  return nearest;
+}
+
+TimedRows motionOfAll(const RobotModel& robot, const std::vector<const WatchedTrajectory*>& trajectories,
+                      const std::vector<double>& delays, const std::vector<double>& state, double from)
+{
+  TimedRows motion;
+  motion.seconds = {from};
+  for (std::size_t i = 0; i < trajectories.size(); ++i)
+    for (const double time : trajectories[i]->rows.seconds)
+      if (time + delays[i] > from)
+        motion.seconds.push_back(time + delays[i]);
+  std::sort(motion.seconds.begin(), motion.seconds.end());
+  motion.seconds.erase(std::unique(motion.seconds.begin(), motion.seconds.end()), motion.seconds.end());
+  const std::size_t width = robot.variables().size();
+  motion.values.reserve(motion.seconds.size() * width);
+  for (const double time : motion.seconds)
+  {
+    motion.values.insert(motion.values.end(), state.begin(), state.end());
+    double* const row = motion.values.data() + motion.values.size() - width;
+    for (std::size_t i = 0; i < trajectories.size(); ++i)
+    {
+      const std::vector<double> values = rowAt(robot, *trajectories[i], time - delays[i]);
+      for (std::size_t k = 0; k < values.size(); ++k)
+        row[trajectories[i]->columns[k]] = values[k];
+    }
+  }
+  return motion;
+}
+
+MotionOutlook outlookOf(const MotionChecker& checker, const RobotModel& robot, const TimedRows& motion)
+{
+  const std::size_t width = robot.variables().size();
+  const double* rows = motion.values.data();
+  // A robot that stands is a motion too.
+  const std::size_t parts = std::max<std::size_t>(motion.seconds.size() - 1, 1);
+  const double* ends = motion.seconds.size() > 1 ? rows + width : rows;
+  const auto isValid = [](const MotionVerdict& verdict) { return verdict.valid; };
+
+  MotionOutlook outlook;
+  const std::vector<MotionVerdict> verdicts = checker.check(rows, ends, parts);
+  const auto bad = std::find_if_not(verdicts.begin(), verdicts.end(), isValid);
+  if (bad == verdicts.end())
+  {
+    outlook.free = true;
+    outlook.free_until = motion.seconds.back();
+    return outlook;
+  }
+  const auto part = static_cast<std::size_t>(bad - verdicts.begin());
+  const double* const start = rows + part * width;
+  const double* const end = ends + part * width;
+  const MotionVerdict verdict = checker.check(start, end, 1, MotionQuery::LastValid).front();
+  const double begin = motion.seconds[part];
+  const double lasts = motion.seconds.size() > 1 ? motion.seconds[part + 1] - begin : 0.0;
+  outlook.free_until = begin + verdict.last_valid * lasts;
+  outlook.collision = begin + verdict.first_invalid * lasts;
+  outlook.colliding = verdict.colliding;
+  outlook.state.resize(width);
+  interpolate(robot, start, end, verdict.first_invalid, outlook.state.data());
+  outlook.brake_by = latestBraking(robot, motion, outlook.free_until);
+  return outlook;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,300 @@
+// ~watch_trajectory and ~watch: the rest of a trajectory is checked while the scene changes, and a simulated robot
+// stops before it hits a box that moves into its way.
+
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <thread>
+
+#include <actionlib_msgs/GoalID.h>
+#include <sensor_msgs/JointState.h>
+
+#include "node/node_client.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr double kRate = 0.25;         // rad/s
+constexpr double kSeconds = 6.0;       // of a trajectory
+constexpr double kDeceleration = 1.0;  // rad/s^2
+
+/// A robot that turns its first joint at a constant rate, publishes its joint values, and brakes when its goal is
+/// cancelled.
+class SimulatedRobot
+{
+ public:
+  SimulatedRobot(std::vector<std::string> names, std::vector<double> start)
+    : names_(std::move(names)),
+      start_(std::move(start)),
+      states_(node_.advertise<sensor_msgs::JointState>("/joint_states", 100)),
+      cancel_(node_.subscribe<actionlib_msgs::GoalID>(
+          "/simulation/cancel", 10, [this](const actionlib_msgs::GoalIDConstPtr&) { brakes_ = true; }))
+  {
+    thread_ = std::thread([this] { run(); });
+  }
+  ~SimulatedRobot()
+  {
+    ended_ = true;
+    thread_.join();
+  }
+
+  void go() { moves_ = true; }
+  bool stands() const { return stands_; }
+  bool brakes() const { return brakes_; }
+  /// Is added to the published values.
+  std::atomic<double> error{0.0};
+
+  std::vector<double> stateAt(double time) const
+  {
+    std::vector<double> state = start_;
+    state[0] += kRate * time;
+    return state;
+  }
+  double time() const { return time_; }
+  bool isListenedTo() const { return states_.getNumSubscribers() > 0; }
+
+ private:
+  void run()
+  {
+    constexpr double kStep = 0.01;
+    double rate = 1.0;
+    for (ros::WallRate loop(1.0 / kStep); !ended_; loop.sleep())
+    {
+      if (moves_ && brakes_)
+        rate = std::max(rate - kStep * kDeceleration / kRate, 0.0);
+      if (moves_)
+        time_ = std::min(time_ + kStep * rate, kSeconds);
+      stands_ = rate == 0.0;
+      sensor_msgs::JointState message;
+      message.header.stamp = ros::Time::now();
+      message.name = names_;
+      message.position = stateAt(time_);
+      message.position[0] += error;
+      states_.publish(message);
+    }
+  }
+
+  ros::NodeHandle node_;
+  const std::vector<std::string> names_;
+  const std::vector<double> start_;
+  ros::Publisher states_;
+  ros::Subscriber cancel_;
+  std::atomic<bool> moves_{false};
+  std::atomic<bool> brakes_{false};
+  std::atomic<bool> stands_{false};
+  std::atomic<bool> ended_{false};
+  std::atomic<double> time_{0.0};
+  std::thread thread_;
+};
+
+class Watch : public RunningNode
+{
+ public:
+  /// The arm is stretched out, so that its tip leaves a place when the first joint turns.
+  static void SetUpTestSuite()
+  {
+    RunningNode::SetUpTestSuite();
+    free_state = {-0.75, 0.5, 0.5, 0.0, 0.3, 0.0, 0.0};
+  }
+
+  void SetUp() override
+  {
+    RunningNode::SetUp();
+    ASSERT_EQ(robot->variables()[0].name, names()[0]);
+    subscriber_ = ros::NodeHandle().subscribe<WatchState>(name("watch"), 1000,
+                                                          [this](const WatchState::ConstPtr& state)
+                                                          {
+                                                            const std::lock_guard<std::mutex> lock(mutex_);
+                                                            states_.push_back(*state);
+                                                          });
+  }
+  void TearDown() override
+  {
+    for (const std::string& id : last().ids)
+      stopWatching(id);
+    RunningNode::TearDown();
+  }
+
+  static std::vector<std::string> names() { return stateRequest(free_state).joint_names; }
+
+  /// The trajectory of the simulated robot.
+  static WatchTrajectory::Request trajectory(const std::string& id)
+  {
+    WatchTrajectory::Request request;
+    request.id = id;
+    request.joint_trajectory.joint_names = {names()[0]};
+    for (int i = 0; i <= 6; ++i)
+    {
+      trajectory_msgs::JointTrajectoryPoint point;
+      point.time_from_start = ros::Duration(kSeconds * i / 6.0);
+      point.positions = {free_state[0] + kRate * kSeconds * i / 6.0};
+      request.joint_trajectory.points.push_back(point);
+    }
+    return request;
+  }
+
+  static WatchTrajectory::Response watch(const WatchTrajectory::Request& request)
+  {
+    return call<WatchTrajectory>("watch_trajectory", request);
+  }
+  static WatchTrajectory::Response stopWatching(const std::string& id)
+  {
+    WatchTrajectory::Request request;
+    request.id = id;
+    request.stop = true;
+    return watch(request);
+  }
+
+  WatchState last()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return states_.empty() ? WatchState() : states_.back();
+  }
+  /// Waits for a message with this verdict.
+  bool comes(std::uint8_t verdict)
+  {
+    return becomes([&] { return last().verdict == verdict; });
+  }
+
+  static CollisionObject boxAtTip(const std::vector<double>& state)
+  {
+    const Eigen::Vector3d at = linkPose(tip, state) * (linkPose(tip, free_state).inverse() * tipPoint());
+    return boxObject("box", at, 0.05);
+  }
+
+ private:
+  std::mutex mutex_;  // guards the next member
+  std::vector<WatchState> states_;
+  ros::Subscriber subscriber_;
+};
+
+TEST_F(Watch, TheRobotStopsBeforeABoxThatMovesIntoItsWay)
+{
+  SimulatedRobot simulated(names(), free_state);
+  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
+  ros::WallDuration(0.3).sleep();
+  WatchTrajectory::Request request = trajectory("turn");
+  request.follow_joint_states = true;
+  request.max_deviation = 0.05;
+  request.cancel_action = "/simulation";
+  const WatchTrajectory::Response first = watch(request);
+  ASSERT_TRUE(first.success) << first.message;
+  ASSERT_EQ(first.state.verdict, WatchState::FREE) << first.state.message;
+  EXPECT_NEAR(first.state.free_for, kSeconds, 0.3);
+  simulated.go();
+  ASSERT_TRUE(becomes([&] { return simulated.time() > 1.0; }));
+  EXPECT_FALSE(simulated.brakes());
+  EXPECT_EQ(last().verdict, WatchState::FREE) << last().message;
+
+  const std::uint64_t revision = apply(diffWith(boxAtTip(simulated.stateAt(4.5))));
+  ASSERT_TRUE(comes(WatchState::COLLISION)) << last().message;
+  const double told_at = simulated.time();
+  ASSERT_TRUE(becomes([&] { return simulated.stands(); }));
+  const WatchState found = last();
+  EXPECT_EQ(found.scene_revision, revision);
+  EXPECT_EQ(found.body_2, "box");
+  EXPECT_LE(found.free_for, found.collision_in);
+  EXPECT_LT(told_at, 2.5) << "the collision is found seconds before it happens";
+  ASSERT_TRUE(becomes([&] { return !last().contacts.empty(); }));
+  EXPECT_EQ(last().contacts[0].contact_body_2, "box");
+  EXPECT_GT(last().collision_in, 0.5) << "the robot stands, so the rest is still to come";
+  for (double time = 0.0; time <= simulated.time(); time += 0.01)
+    ASSERT_EQ(check(simulated.stateAt(time)).valid.at(0), 1) << time;
+  EXPECT_EQ(check(simulated.stateAt(4.5)).valid.at(0), 0) << "it would have hit the box";
+
+  apply(diffWith(objectOperation("box", CollisionObject::REMOVE)));
+  EXPECT_TRUE(comes(WatchState::FREE)) << "the way is free again";
+}
+
+TEST_F(Watch, SaysWhenTheRobotMustBrake)
+{
+  const std::uint64_t revision = apply(diffWith(boxAtTip(
+      []
+      {
+        std::vector<double> state = free_state;
+        state[0] += kRate * 4.5;
+        return state;
+      }())));
+  const WatchState state = watch(trajectory("turn")).state;
+  EXPECT_EQ(state.verdict, WatchState::COLLISION) << state.message;
+  EXPECT_EQ(state.scene_revision, revision);
+  EXPECT_GT(state.free_for, 1.0);
+  EXPECT_LE(state.free_for, state.collision_in);
+  EXPECT_LT(state.collision_in, 4.6);
+  // At 0.25 rad/s and the limit of the joint, or 1 rad/s^2 without one.
+  const double limit = robot->variables()[0].max_acceleration.value_or(1.0);
+  EXPECT_NEAR(state.brake_in, state.free_for - 0.5 * kRate / limit, 1e-6);
+  EXPECT_TRUE(stopWatching("turn").success);
+}
+
+TEST_F(Watch, ATrajectoryThatHasEndedIsNotWatchedAnyMore)
+{
+  WatchTrajectory::Request request = trajectory("short");
+  request.joint_trajectory.header.stamp = ros::Time::now() - ros::Duration(kSeconds - 0.5);
+  EXPECT_EQ(watch(request).state.verdict, WatchState::FREE);
+  ASSERT_TRUE(comes(WatchState::NONE));
+  EXPECT_EQ(last().ended, std::vector<std::string>{"short"});
+  EXPECT_TRUE(last().ids.empty());
+  const auto stopped = stopWatching("short");
+  EXPECT_FALSE(stopped.success);
+  EXPECT_EQ(stopped.status, Status::INVALID_REQUEST);
+}
+
+TEST_F(Watch, ARobotBesideItsTrajectoryIsNotFree)
+{
+  SimulatedRobot simulated(names(), free_state);
+  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
+  ros::WallDuration(0.3).sleep();
+  WatchTrajectory::Request request = trajectory("turn");
+  request.follow_joint_states = true;
+  request.max_deviation = 0.05;
+  ASSERT_EQ(watch(request).state.verdict, WatchState::FREE) << last().message;
+  simulated.error = -0.2;
+  ASSERT_TRUE(comes(WatchState::OFF_PATH));
+  EXPECT_NEAR(last().deviations.at(0), 0.2, 0.01);
+  EXPECT_EQ(last().free_for, 0.0);
+  simulated.error = 0.0;
+  EXPECT_TRUE(comes(WatchState::FREE));
+}
+
+TEST_F(Watch, ARobotThatIsNotMeasuredIsUnknown)
+{
+  ros::WallDuration(1.2).sleep();  // values of earlier tests are older than a second
+  WatchTrajectory::Request request = trajectory("turn");
+  request.follow_joint_states = true;
+  const WatchTrajectory::Response response = watch(request);
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_EQ(response.state.verdict, WatchState::UNKNOWN);
+  EXPECT_NE(response.state.message.find("joint_states"), std::string::npos) << response.state.message;
+}
+
+TEST_F(Watch, WrongRequestsAreRefusedAndNothingElseIsWatched)
+{
+  const auto refuses = [](const WatchTrajectory::Request& request, const std::string& reason)
+  {
+    const auto response = watch(request);
+    EXPECT_FALSE(response.success) << reason;
+    EXPECT_EQ(response.status, Status::INVALID_REQUEST) << response.message;
+    EXPECT_NE(response.message.find(reason), std::string::npos) << response.message;
+  };
+  refuses(trajectory(""), "no name");
+  WatchTrajectory::Request request = trajectory("a");
+  request.joint_trajectory.points[2].time_from_start = ros::Duration(0.5);
+  refuses(request, "row 2");
+  request = trajectory("a");
+  request.joint_trajectory.joint_names = {"no such joint"};
+  refuses(request, "no such joint");
+  request = trajectory("a");
+  request.max_deviation = -1.0;
+  refuses(request, "max_deviation");
+  request = trajectory("a");
+  request.joint_trajectory.points.clear();
+  refuses(request, "points");
+  ASSERT_TRUE(watch(trajectory("a")).success);
+  refuses(trajectory("b"), "is moved by the trajectory 'a'");
+  EXPECT_TRUE(becomes([&] { return last().ids == std::vector<std::string>{"a"}; }));
+  EXPECT_TRUE(watch(trajectory("a")).success) << "a trajectory of the same name is replaced";
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core

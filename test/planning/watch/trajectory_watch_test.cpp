@@ -1,0 +1,345 @@
+// What is still to come of trajectories is checked while the scene changes: no collision is missed, and none is
+// invented. Two trajectories are checked in time. The latest moment to brake is right.
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "collision/bounds/problem_maker.h"
+#include "gpu_planning_scene/cpu_checker.h"
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/interpolation.h"
+#include "gpu_planning_scene/planning/trajectory_watch.h"
+#include "gpu_planning_scene/state_inspector.h"
+#include "model/model_testing.h"
+#include "support/fcl_peer.h"
+#include "support/repetitions.h"
+#include "support/test_scenes.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+MotionChecker checkerOf(const std::shared_ptr<const PlanningScene>& scene)
+{
+  return {std::make_shared<CpuChecker>(scene), scene->robot, "", {}};
+}
+
+std::vector<double> stateAt(const RobotModel& robot, const TimedRows& motion, double time)
+{
+  WatchedTrajectory all;
+  for (std::size_t i = 0; i < robot.variables().size(); ++i)
+    all.columns.push_back(static_cast<int>(i));
+  all.rows = motion;
+  return rowAt(robot, all, time);
+}
+
+/// Expects that a motion is free until a time, up to two samples of 0.02 m before.
+void expectUntil(const MotionOutlook& outlook, double time)
+{
+  EXPECT_FALSE(outlook.free);
+  EXPECT_LE(outlook.free_until, time);
+  EXPECT_GT(outlook.free_until, time - 0.05);
+}
+
+/// Two carts on crossing rails, each a cube of 0.2 m: `east` moves along x, `north` along y. They meet at the origin.
+std::shared_ptr<const PlanningScene> crossing()
+{
+  const auto rail = [](const std::string& name, const std::string& axis)
+  {
+    return "<link name='" + name +
+           "_cart'><collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision></link>" +
+           jointXml(name, "prismatic", "base", name + "_cart",
+                    "<axis xyz='" + axis + "'/><limit lower='-5' upper='5' effort='1' velocity='1'/>");
+  };
+  return std::make_shared<const PlanningScene>(
+      robotOf("<link name='base'/>" + rail("east", "1 0 0") + rail("north", "0 1 0")));
+}
+
+class Crossing : public testing::Test
+{
+ protected:
+  const std::shared_ptr<const PlanningScene> scene = crossing();
+  const RobotModel& robot = *scene->robot;
+  const MotionChecker checker = checkerOf(scene);
+  const int east = robot.variableIndex("east");
+  const int north = robot.variableIndex("north");
+
+  /// From -1 m to 1 m in two seconds, beginning at `start`.
+  static WatchedTrajectory along(int column, double start) { return {{column}, {{start, start + 2.0}, {-1.0, 1.0}}}; }
+
+  MotionOutlook outlook(const WatchedTrajectory& a, const WatchedTrajectory& b, double from = 0.0,
+                        double delay_of_b = 0.0) const
+  {
+    const TimedRows motion = motionOfAll(robot, {&a, &b}, {0.0, delay_of_b}, {-1.0, -1.0}, from);
+    return outlookOf(checker, robot, motion);
+  }
+};
+
+TEST_F(Crossing, TwoTrajectoriesCollideOnlyIfTheyAreAtTheSamePlaceAtTheSameTime)
+{
+  const MotionOutlook together = outlook(along(east, 0.0), along(north, 0.0));
+  EXPECT_FALSE(together.free);
+  EXPECT_NE(together.colliding, kNoPair);
+  expectUntil(together, 0.8);  // the cubes touch where both are 0.2 m before the origin
+  EXPECT_LE(together.free_until, together.collision);
+  const MotionOutlook later = outlook(along(east, 0.0), along(north, 0.5));
+  EXPECT_TRUE(later.free);
+  EXPECT_EQ(later.free_until, 2.5);
+  EXPECT_EQ(later.collision, kInfinity);
+  EXPECT_EQ(later.brake_by, kInfinity);
+  EXPECT_FALSE(outlook(along(east, 0.0), along(north, 0.5), 0.0, -0.5).free) << "a delay moves a trajectory in time";
+}
+
+TEST_F(Crossing, WhatHasPassedDoesNotCount)
+{
+  EXPECT_FALSE(outlook(along(east, 0.0), along(north, 0.0), 1.15).free);
+  EXPECT_TRUE(outlook(along(east, 0.0), along(north, 0.0), 1.25).free);
+}
+
+TEST_F(Crossing, ATrajectoryStandsBeforeItsStartAndAfterItsEnd)
+{
+  const WatchedTrajectory into_the_way = {{north}, {{0.0, 1.0}, {-1.0, 0.0}}};
+  const MotionOutlook blocked = outlook(along(east, 2.0), into_the_way);
+  expectUntil(blocked, 2.8);  // north stands at the origin from 1 s on
+  const WatchedTrajectory out_of_the_way = {{north}, {{3.0, 4.0}, {0.0, 1.0}}};
+  expectUntil(outlook(along(east, 0.0), out_of_the_way), 0.8);  // north waits at the origin
+}
+
+/// A cart that moves towards a wall. It may decelerate by 2 m/s^2.
+class Braking : public testing::Test
+{
+ protected:
+  Braking()
+  {
+    PlanningScene made(robotOf(
+        "<link name='base'/><link name='cart'><collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision>"
+        "</link>" +
+        jointXml("slide", "prismatic", "base", "cart",
+                 "<axis xyz='1 0 0'/><limit lower='-5' upper='5' effort='1' velocity='4'/>")));
+    auto robot = std::make_shared<RobotModel>(*made.robot);
+    WorldObject wall;
+    wall.id = "wall";
+    wall.pose = Eigen::Translation3d(1.2, 0.0, 0.0);
+    wall.shapes = {{Box{{0.2, 1.0, 1.0}}}};
+    made.objects = {wall};
+    scene = std::make_shared<const PlanningScene>(made);
+  }
+
+  MotionOutlook outlook(const TimedRows& motion) const { return outlookOf(checkerOf(scene), *scene->robot, motion); }
+
+  std::shared_ptr<const PlanningScene> scene;
+};
+
+TEST_F(Braking, BeginsHalfTheBrakingTimeBeforeTheLastFreeState)
+{
+  // At 1 m/s and 1 m/s^2, which counts without a limit, braking takes 1 s and 0.5 m: half a second of the motion.
+  const MotionOutlook found = outlook({{0.0, 2.0}, {0.0, 2.0}});
+  expectUntil(found, 1.0);
+  EXPECT_NEAR(found.brake_by, found.free_until - 0.5, 1e-12);
+}
+
+TEST_F(Braking, CountsFasterPartsThatTheRobotStillPasses)
+{
+  // 0.5 m/s in the last part: half a second, so the robot would begin to brake in the part before. There it moves with
+  // 2 m/s and brakes in two seconds.
+  const MotionOutlook found = outlook({{0.0, 1.0, 2.0}, {-1.1, 0.9, 1.4}});
+  expectUntil(found, 1.2);
+  EXPECT_NEAR(found.brake_by, found.free_until - 1.0, 1e-12);
+}
+
+TEST_F(Braking, IsTooLateIfTheRobotIsTooFast)
+{
+  EXPECT_EQ(outlook({{0.0, 1.0}, {0.8, 4.0}}).brake_by, -kInfinity);
+}
+
+TEST_F(Braking, ARobotThatStandsIsCheckedToo)
+{
+  EXPECT_TRUE(outlook({{5.0}, {0.0}}).free);
+  const MotionOutlook inside = outlook({{5.0}, {1.1}});
+  EXPECT_FALSE(inside.free);
+  EXPECT_EQ(inside.collision, 5.0);
+  EXPECT_EQ(inside.free_until, 5.0);
+}
+
+TEST(NearestRow, IsFoundInTheWindowOnly)
+{
+  const auto scene = crossing();
+  const RobotModel& robot = *scene->robot;
+  // Forth and back: each place is passed twice.
+  const WatchedTrajectory there_and_back = {{robot.variableIndex("east")}, {{0.0, 1.0, 2.0}, {0.0, 1.0, 0.0}}};
+  const auto progress = [&](double value, double earliest, double latest)
+  { return nearestRow(robot, there_and_back, {value}, earliest, latest); };
+  EXPECT_NEAR(progress(0.25, 0.0, 2.0).time, 0.25, 1e-12) << "the earlier of two equal places";
+  EXPECT_NEAR(progress(0.25, 0.5, 2.0).time, 1.75, 1e-12);
+  EXPECT_NEAR(progress(0.25, 0.5, 1.0).time, 0.5, 1e-12);
+  EXPECT_NEAR(progress(0.25, 0.5, 1.0).deviation, 0.25, 1e-12);
+  EXPECT_NEAR(progress(1.3, 0.0, 2.0).time, 1.0, 1e-12);
+  EXPECT_NEAR(progress(1.3, 0.0, 2.0).deviation, 0.3, 1e-12);
+}
+
+TEST(NearestRow, AFullTurnOfAContinuousJointIsNoDeviation)
+{
+  const auto robot = robotOf("<link name='base'/>" + boxLink("wheel") +
+                             jointXml("turn", "continuous", "base", "wheel", "<axis xyz='0 0 1'/>"));
+  const WatchedTrajectory turn = {{0}, {{0.0, 1.0}, {3.0, 3.5}}};
+  const Progress found = nearestRow(*robot, turn, {3.25 - 2.0 * M_PI}, 0.0, 1.0);
+  EXPECT_NEAR(found.time, 0.5, 1e-9);
+  EXPECT_NEAR(found.deviation, 0.0, 1e-9);
+}
+
+TEST(ValidateTrajectory, NamesTheWrongRow)
+{
+  const auto error = [](const TimedRows& rows) { return errorOf([&] { validateTrajectory({{0}, rows}); }); };
+  EXPECT_EQ(error({{0.0, 1.0}, {0.0, 1.0}}), "");
+  EXPECT_NE(error({{}, {}}).find("at least one"), std::string::npos);
+  EXPECT_NE(error({{0.0, 1.0}, {0.0}}).find("1 values for 2 rows"), std::string::npos);
+  EXPECT_NE(error({{0.0, 0.0}, {0.0, 1.0}}).find("row 1"), std::string::npos);
+  EXPECT_NE(error({{0.0, std::nan("")}, {0.0, 1.0}}).find("row 1"), std::string::npos);
+  EXPECT_NE(error({{0.0, 1.0}, {0.0, std::nan("")}}).find("not a finite number"), std::string::npos);
+}
+
+class WatchedScenes : public testing::TestWithParam<const char*>
+{
+ protected:
+  void SetUp() override
+  {
+    if (const std::string missing = missingFor(GetParam()); !missing.empty())
+      GTEST_SKIP() << "there is no " << missing;
+    test_ = &testScene(GetParam());
+    std::cout << "seed " << seed_ << "\n";
+  }
+
+  double uniform(double lower, double upper)
+  {
+    return std::uniform_real_distribution<double>(lower, upper)(generator_);
+  }
+
+  /// A trajectory of all variables through eight random states, which are drawn towards the first one. It is free in
+  /// the scene of the test.
+  WatchedTrajectory freeTrajectory()
+  {
+    const MotionChecker checker = checkerOf(test_->scene);
+    const RobotModel& robot = *test_->scene->robot;
+    while (true)
+    {
+      WatchedTrajectory made = randomTrajectory();
+      if (outlookOf(checker, robot, motionOfAll(robot, {&made}, {0.0}, test_->lower, 0.0)).free)
+        return made;
+    }
+  }
+
+  WatchedTrajectory randomTrajectory()
+  {
+    const std::size_t width = test_->lower.size();
+    WatchedTrajectory made;
+    std::vector<double> state = test_->randomStates(1, generator_());
+    for (std::size_t i = 0; i < width; ++i)
+      made.columns.push_back(static_cast<int>(i));
+    for (int row = 0; row < 8; ++row)
+    {
+      made.rows.seconds.push_back(row + uniform(0.0, 0.9));
+      made.rows.values.insert(made.rows.values.end(), state.begin(), state.end());
+      const std::vector<double> towards = test_->randomStates(1, generator_());
+      for (std::size_t i = 0; i < width; ++i)
+        state[i] += 0.1 * (towards[i] - state[i]);
+    }
+    return made;
+  }
+
+  /// Adds a box, or moves it: often to a place where a link will be, else to a random one.
+  void change(const WatchedTrajectory& trajectory, PlanningScene& scene)
+  {
+    constexpr std::size_t kBoxes = 3;
+    const RobotModel& robot = *scene.robot;
+    WorldObject box;
+    box.id = "box " + std::to_string(generator_() % kBoxes);
+    box.pose = Eigen::Translation3d(uniform(-1.2, 1.2), uniform(-1.2, 1.2), uniform(-0.2, 1.2));
+    if (uniform(0.0, 1.0) < 0.2)
+    {
+      std::vector<Eigen::Isometry3d> poses(robot.links().size());
+      robot.linkPoses(rowAt(robot, trajectory, uniform(0.0, 8.0)).data(), poses.data());
+      box.pose = Eigen::Translation3d(poses[generator_() % poses.size()].translation());
+    }
+    box.shapes = {{Box{{uniform(0.02, 0.2), uniform(0.02, 0.2), uniform(0.02, 0.2)}}}};
+    const auto same = std::find_if(scene.objects.begin(), scene.objects.end(),
+                                   [&](const WorldObject& object) { return object.id == box.id; });
+    if (same != scene.objects.end())
+      *same = box;
+    else
+      scene.objects.push_back(box);
+  }
+
+  const TestScene* test_ = nullptr;
+  const std::uint64_t seed_ = std::random_device()();
+  std::mt19937_64 generator_{seed_};
+};
+
+TEST_P(WatchedScenes, NoCollisionOfTheRestIsMissedAndNoneIsInvented)
+{
+  constexpr int kTrajectories = repetitions(4, 100);
+  constexpr int kChanges = repetitions(12, 100);  // for each trajectory
+  constexpr int kSamples = repetitions(60, 200);
+  const RobotModel& robot = *test_->scene->robot;
+  int free = 0;
+  int changes = 0;
+  const auto checker = std::make_shared<CpuChecker>(test_->scene);
+  for (int t = 0; t < kTrajectories; ++t)
+  {
+    const WatchedTrajectory trajectory = freeTrajectory();
+    PlanningScene scene = *test_->scene;
+    for (int c = 0; c < kChanges; ++c)
+    {
+      change(trajectory, scene);
+      const auto now = std::make_shared<const PlanningScene>(scene);
+      checker->setScene(now);
+      const double from = uniform(0.0, trajectory.rows.seconds.back());
+      const TimedRows motion = motionOfAll(robot, {&trajectory}, {0.0}, test_->lower, from);
+      const MotionOutlook outlook = outlookOf(MotionChecker(checker, now->robot, "", {}), robot, motion);
+      ++changes;
+      free += outlook.free ? 1 : 0;
+
+      FclPeer fcl(std::make_shared<const CollisionProblem>(makeProblem(*now, "", nullptr)));
+      std::vector<Eigen::Isometry3d> poses(robot.links().size());
+      const auto collides = [&](const std::vector<double>& state)
+      {
+        robot.linkPoses(state.data(), poses.data());
+        fcl.setState(poses.data());
+        return fcl.firstCollision();
+      };
+      const double end = outlook.free ? trajectory.rows.seconds.back() : outlook.free_until;
+      for (int i = 0; i < kSamples && end > from; ++i)
+      {
+        const double time = from + (end - from) * i / kSamples;
+        const auto pair = collides(stateAt(robot, motion, time));
+        ASSERT_TRUE(!pair || fcl.freeWhenMovedApart(*pair))
+            << "missed: trajectory " << t << ", change " << c << ", " << time << " s of " << from << " to " << end;
+      }
+      if (outlook.free)
+        continue;
+      const std::vector<double> then = stateAt(robot, motion, outlook.collision);
+      for (std::size_t i = 0; i < then.size(); ++i)
+        EXPECT_NEAR(outlook.state[i], then[i], 1e-9);
+      EXPECT_LE(outlook.free_until, outlook.collision);
+      EXPECT_LE(outlook.brake_by, outlook.free_until);
+      const double clearance = StateInspector(now).clearance(outlook.state.data(), "").world;
+      const double self = StateInspector(now).clearance(outlook.state.data(), "").self;
+      if (outlook.colliding != kNoPair)
+        EXPECT_TRUE(collides(outlook.state) || std::min(clearance, self) == 0.0) << "invented";
+      else
+        EXPECT_LT(std::min(clearance, self), 1e-3) << "not proven, but far from a collision";
+    }
+  }
+  std::cout << free << " of " << changes << " free\n";
+  EXPECT_GT(free, 0);
+  EXPECT_LT(free, changes);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, WatchedScenes, testing::Values("arm_boxes", "kr5_boxes", "panda_boxes", "ur5_box"));
+}  // namespace
+}  // namespace gpu_planning_scene::core
