@@ -1,7 +1,7 @@
 // Error bounds of float32 computations that several tests of two placed shapes share: poses, boxes, planes. The bounds
 // of two triangles are in triangle_error_bounds.glsl. All other bounds are in the file of their test. In geometry/:
-// triangle_distance.glsl and winding_number.glsl. In traversal/: solid_leaf.glsl, solid_nodes.glsl, close_enough.glsl and
-// bounding_volume_overlap.glsl (sizeError). docs/error_bounds.md derives each bound. Lengths are in metres.
+// triangle_distance.glsl and winding_number.glsl. In traversal/: solid_leaf.glsl, solid_nodes.glsl, close_enough.glsl
+// and bounding_volume_overlap.glsl (sizeError). docs/error_bounds.md derives each bound. Lengths are in metres.
 
 // The relative error of one operation, in every rounding mode.
 const float u = UNIT_ROUNDOFF;

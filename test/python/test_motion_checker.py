@@ -23,7 +23,7 @@ def motions(scene, **options):
 class MotionChecker(Case):
     def test_the_outlook_of_a_trajectory_is_that_of_its_rest(self):
         checker = motions(wall_scene(0.1))
-        seconds, states = [0.0, 1.0, 2.0], [[-1.0], [0.0], [1.0]]
+        seconds, states = [0.0, 1.0, 2.0], [[-1.0], [0.0], [3.0]]
         blocked = checker.outlook(seconds, states, now=0.5)
         self.assertFalse(blocked.free)
         self.assertLessEqual(blocked.free_until, blocked.collision)

@@ -120,7 +120,8 @@ CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::
             requestedScene(store_, others_.pose, request.scene_diff, request.allowed_collision_matrix,
                            startOf(*store_.snapshot().scene->robot, request));
         const RobotModel& robot = *scene.now.scene->robot;
-        const RequestedTrajectory trajectory = requestedTrajectory(robot, request.joint_trajectory, request.multi_dof_joint_trajectory);
+        const RequestedTrajectory trajectory =
+            requestedTrajectory(robot, request.joint_trajectory, request.multi_dof_joint_trajectory);
         requireWholeRotations(robot, trajectory.columns);
         const std::vector<double> start = fullStates(robot, {}, nullptr, 1, scene.now.partialState());
         const std::vector<double> path = pathOf(trajectory, start);
