@@ -102,6 +102,16 @@ TEST_F(Crossing, WhatHasPassedDoesNotCount)
   EXPECT_TRUE(outlook(along(east, 0.0), along(north, 0.0), 1.25).free);
 }
 
+TEST_F(Crossing, ADelayedTrajectoryHasItsRowsLater)
+{
+  const WatchedTrajectory a = along(east, 0.5);  // to 2.5 s
+  const TimedRows early = motionOfAll(robot, {&a}, {-1.0}, {-1.0, -1.0}, 0.0);
+  EXPECT_EQ(early.seconds, (std::vector<double>{0.0, 1.5}));
+  EXPECT_NEAR(early.values[static_cast<std::size_t>(east)], -0.5, 1e-12) << "where the trajectory is at 1 s";
+  const TimedRows late = motionOfAll(robot, {&a}, {1.0}, {-1.0, -1.0}, 0.0);
+  EXPECT_EQ(late.seconds, (std::vector<double>{0.0, 1.5, 3.5}));
+}
+
 TEST_F(Crossing, ATrajectoryStandsBeforeItsStartAndAfterItsEnd)
 {
   const WatchedTrajectory into_the_way = {{north}, {{0.0, 1.0}, {-1.0, 0.0}}};
@@ -150,6 +160,14 @@ TEST_F(Braking, CountsFasterPartsThatTheRobotStillPasses)
   // 2 m/s and brakes in two seconds.
   const MotionOutlook found = outlook({{0.0, 1.0, 2.0}, {-1.1, 0.9, 1.4}});
   expectUntil(found, 1.2);
+  EXPECT_NEAR(found.brake_by, found.free_until - 1.0, 1e-12);
+}
+
+TEST_F(Braking, IsNotShorterBecauseItBeginsInASlowerPart)
+{
+  // At 2 m/s from 1 s on, and at 0.4 m/s before.
+  const MotionOutlook found = outlook({{0.0, 1.0, 2.0}, {0.3, 0.7, 2.7}});
+  expectUntil(found, 1.15);
   EXPECT_NEAR(found.brake_by, found.free_until - 1.0, 1e-12);
 }
 
