@@ -9,6 +9,7 @@
 #include <actionlib_msgs/GoalID.h>
 #include <sensor_msgs/JointState.h>
 
+#include "node/child_node.h"
 #include "node/node_client.h"
 
 namespace gpu_planning_scene::core
@@ -157,6 +158,14 @@ class Watch : public RunningNode
     return becomes([&] { return last().verdict == verdict; });
   }
 
+  /// The state of the trajectory at a time.
+  static std::vector<double> turned(double time)
+  {
+    std::vector<double> state = free_state;
+    state[0] += kRate * time;
+    return state;
+  }
+
   static CollisionObject boxAtTip(const std::vector<double>& state)
   {
     const Eigen::Vector3d at = linkPose(tip, state) * (linkPose(tip, free_state).inverse() * tipPoint());
@@ -205,6 +214,34 @@ TEST_F(Watch, TheRobotStopsBeforeABoxThatMovesIntoItsWay)
 
   apply(diffWith(objectOperation("box", CollisionObject::REMOVE)));
   EXPECT_TRUE(comes(WatchState::FREE)) << "the way is free again";
+}
+
+TEST_F(Watch, AChangeIsAnsweredAtOnceHoweverLowTheRateIs)
+{
+  const ChildNode slow("slow", {"_device:=cpu", "_watch/rate:=0.001"});
+  const auto ask = [&](const std::string& service, auto call)
+  {
+    EXPECT_TRUE(callPersistently(slow.service(service), call)) << service;
+    EXPECT_TRUE(call.response.success) << call.response.message;
+    return call.response;
+  };
+  ApplyPlanningScene change;
+  change.request.scene = diffScene();
+  change.request.scene.robot_state = stateMessage(free_state);
+  ask("apply_planning_scene", change);
+  std::atomic<std::uint64_t> collides_in{0};
+  const auto subscriber = ros::NodeHandle().subscribe<WatchState>(slow.service("watch"), 100,
+                                                                  [&](const WatchState::ConstPtr& state)
+                                                                  {
+                                                                    if (state->verdict == WatchState::COLLISION)
+                                                                      collides_in = state->scene_revision;
+                                                                  });
+  WatchTrajectory watched;
+  watched.request = trajectory("turn");
+  EXPECT_EQ(ask("watch_trajectory", watched).state.verdict, WatchState::FREE);
+  change.request.scene = diffWith(boxAtTip(turned(4.5)));
+  const std::uint64_t revision = ask("apply_planning_scene", change).scene_revision;
+  EXPECT_TRUE(becomes([&] { return collides_in == revision; }));
 }
 
 TEST_F(Watch, SaysWhenTheRobotMustBrake)
