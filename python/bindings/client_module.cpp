@@ -1,7 +1,7 @@
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <future>
 #include <memory>
 #include <stdexcept>
@@ -42,32 +42,32 @@ class RunningCalls
   class Guard
   {
    public:
-    Guard() { ++count_; }
-    ~Guard() { --count_; }
+    Guard() { ++count; }
+    ~Guard() { --count; }
     Guard(const Guard&) = delete;
     Guard& operator=(const Guard&) = delete;
   };
 
-  static bool areToEnd() { return are_to_end_; }
+  static bool areToEnd() { return are_to_end; }
   /// Throws RuntimeError.
   static void requireNoEnd()
   {
-    if (are_to_end_)
+    if (are_to_end)
       throw std::runtime_error("the interpreter ends, so the call has no answer");
   }
   /// Ends all calls, also later ones.
   static void end()
   {
-    are_to_end_ = true;
+    are_to_end = true;
     const py::gil_scoped_release released;
     const auto last = std::chrono::steady_clock::now() + kLongestEnd;
-    while (count_ != 0 && std::chrono::steady_clock::now() < last)
+    while (count != 0 && std::chrono::steady_clock::now() < last)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
  private:
-  static inline std::atomic<bool> are_to_end_{false};
-  static inline std::atomic<int> count_{0};
+  static inline std::atomic<bool> are_to_end{false};
+  static inline std::atomic<int> count{0};
 };
 
 /// The remappings among the arguments of the command line, for example "__ns:=/cell". Values of private parameters, for
@@ -122,10 +122,11 @@ std::unique_ptr<ShardedChecker> makeChecker(const std::vector<std::string>& node
 
 ShardedChecker::Request requestOf(std::string_view bytes)
 {
-  ros::SerializedMessage message(boost::shared_array<std::uint8_t>(new std::uint8_t[bytes.size()]), bytes.size());
-  std::memcpy(message.buf.get(), bytes.data(), bytes.size());
+  // The stream only reads, although its type does not say so.
+  auto* begin = reinterpret_cast<std::uint8_t*>(const_cast<char*>(bytes.data()));
+  ros::serialization::IStream stream(begin, static_cast<std::uint32_t>(bytes.size()));
   ShardedChecker::Request request;
-  ros::serialization::deserializeMessage(message, request);
+  ros::serialization::deserialize(stream, request);
   return request;
 }
 

@@ -32,11 +32,12 @@ class NodeConnections
   {
     const CallLimit limit(timeout_, is_cancelled);
     std::unique_ptr<ServiceConnection> connection = connected(name, ros::service_traits::md5sum<Service>(), limit);
-    const ros::SerializedMessage answer = connection->call(ros::serialization::serializeMessage(request), limit);
+    std::vector<std::uint8_t> answer = connection->call(ros::serialization::serializeMessage(request), limit);
     typename Service::Response response;
     try
     {
-      ros::serialization::deserializeMessage(answer, response);
+      ros::serialization::IStream stream(answer.data(), static_cast<std::uint32_t>(answer.size()));
+      ros::serialization::deserialize(stream, response);
     }
     catch (const ros::serialization::StreamOverrunException& fault)
     {

@@ -1,8 +1,6 @@
 #include "client/service_connection.h"
 
-#include <cstdint>
-#include <cstring>
-#include <utility>
+#include <limits>
 
 #include <ros/header.h>
 #include <ros/master.h>
@@ -32,11 +30,6 @@ std::pair<std::string, std::uint32_t> addressOf(const std::string& service)
     throw NoAnswer("the address " + static_cast<std::string&>(uri) + " of the service " + service + " is wrong");
   return address;
 }
-
-std::string textOf(const ros::SerializedMessage& message)
-{
-  return {reinterpret_cast<const char*>(message.buf.get()), message.num_bytes};
-}
 }  // namespace
 
 ServiceConnection::ServiceConnection(const std::string& service, const std::string& md5sum, const CallLimit& limit)
@@ -61,11 +54,11 @@ void ServiceConnection::shakeHands(const std::string& service, const std::string
   connection_.send(&size, sizeof size, limit);
   connection_.send(fields.get(), size, limit);
 
-  const std::uint32_t received = receiveLength(limit);
+  std::vector<std::uint8_t> received = receiveBlock(kLargestHeader, limit);
   ros::Header header;
   std::string fault;
-  if (received > kLargestHeader || !header.parse(receiveBytes(received, limit).buf, received, fault))
-    throw NoAnswer("what answers for the service " + service + " is not a node of ROS");
+  if (!header.parse(received.data(), static_cast<std::uint32_t>(received.size()), fault))
+    throw NoAnswer("the header of the service " + service + " is wrong: " + fault);
   if (!header.getValue("error", fault))
     return;
   const bool is_other_type = fault.find("md5sum") != std::string::npos;
@@ -74,29 +67,25 @@ void ServiceConnection::shakeHands(const std::string& service, const std::string
                  fault);
 }
 
-ros::SerializedMessage ServiceConnection::call(const ros::SerializedMessage& request, const CallLimit& limit)
+std::vector<std::uint8_t> ServiceConnection::call(const ros::SerializedMessage& request, const CallLimit& limit)
 {
   connection_.send(request.buf.get(), request.num_bytes, limit);
   std::uint8_t has_succeeded = 0;
   connection_.receive(&has_succeeded, sizeof has_succeeded, limit);
-  const ros::SerializedMessage response = receiveBytes(receiveLength(limit), limit);
+  std::vector<std::uint8_t> response = receiveBlock(std::numeric_limits<std::uint32_t>::max(), limit);
   if (has_succeeded == 0)
-    throw NoAnswer("the service has failed: " + textOf(response));
+    throw NoAnswer("the service has failed: " + std::string(response.begin(), response.end()));
   return response;
 }
 
-std::uint32_t ServiceConnection::receiveLength(const CallLimit& limit)
+std::vector<std::uint8_t> ServiceConnection::receiveBlock(std::uint32_t most, const CallLimit& limit)
 {
   std::uint32_t length = 0;  // little-endian, as all processors of ROS are
   connection_.receive(&length, sizeof length, limit);
-  return length;
-}
-
-ros::SerializedMessage ServiceConnection::receiveBytes(std::uint32_t count, const CallLimit& limit)
-{
-  ros::SerializedMessage message(boost::shared_array<std::uint8_t>(new std::uint8_t[count]), count);
-  message.message_start = message.buf.get();
-  connection_.receive(message.buf.get(), count, limit);
-  return message;
+  if (length > most)
+    throw NoAnswer("what answers is not a node of ROS");
+  std::vector<std::uint8_t> bytes(length);
+  connection_.receive(bytes.data(), length, limit);
+  return bytes;
 }
 }  // namespace gpu_planning_scene::core

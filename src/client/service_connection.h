@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <ros/serialized_message.h>
 
@@ -20,13 +23,13 @@ class ServiceConnection
   /// Whether the next call can use this connection.
   bool isOpen() const { return connection_.isQuiet(); }
   /// The serialised response. `request` is serialised with its length.
-  ros::SerializedMessage call(const ros::SerializedMessage& request, const CallLimit& limit);
+  std::vector<std::uint8_t> call(const ros::SerializedMessage& request, const CallLimit& limit);
 
  private:
   ServiceConnection(const std::pair<std::string, std::uint32_t>& address, const std::string& service,
                     const std::string& md5sum, const CallLimit& limit);
-  std::uint32_t receiveLength(const CallLimit& limit);
-  ros::SerializedMessage receiveBytes(std::uint32_t count, const CallLimit& limit);
+  /// A length, and as many bytes.
+  std::vector<std::uint8_t> receiveBlock(std::uint32_t most, const CallLimit& limit);
   void shakeHands(const std::string& service, const std::string& md5sum, const CallLimit& limit);
 
   TcpConnection connection_;
