@@ -392,7 +392,7 @@ TEST_F(Sharding, ANodeThatHangsIsGivenUpAfterTheTimeout)
   ASSERT_TRUE(reaches(*frozen, scene().scene_revision));
   ShardedCheckerOptions options;
   options.timeout = 2.0;
-  options.patience = 0.0;
+  options.patience = 60.0;  // on a busy machine, the leader too may need more than the timeout
   ShardedChecker connected({kLeader, "/frozen"}, options);
   for (int i = 0; i < 2; ++i)  // one request to each node
     ASSERT_TRUE(connected.check(stateRequest(free_state)).success);
@@ -404,6 +404,7 @@ TEST_F(Sharding, ANodeThatHangsIsGivenUpAfterTheTimeout)
       EXPECT_TRUE(checker->check(stateRequest(free_state)).success);
     expectOfOneScene(checker->check(manyStates(20000)), 20000);
   }
+  options.patience = 0.0;
   const CheckStates::Response none = ShardedChecker({"/frozen"}, options).check(stateRequest(free_state));
   EXPECT_EQ(Status::UNAVAILABLE, none.status);
   EXPECT_NE(std::string::npos, none.message.find("/frozen: ")) << none.message;
