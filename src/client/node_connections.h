@@ -1,14 +1,17 @@
 #pragma once
 
+#include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <ros/node_handle.h>
-#include <ros/service_client.h>
+#include <ros/serialization.h>
+#include <ros/service_traits.h>
 
-#include "client/call_watch.h"
+#include "client/service_connection.h"
 
 namespace gpu_planning_scene::core
 {
@@ -17,51 +20,44 @@ namespace gpu_planning_scene::core
 class NodeConnections
 {
  public:
-  NodeConnections(std::string node, CallWatch& watch) : node_(std::move(node)), watch_(watch) {}
+  /// `timeout`: seconds for a call, with the connection if one is made for it. Throws Error for a wrong name.
+  NodeConnections(const std::string& node, double timeout);
 
   const std::string& node() const { return node_; }
 
-  /// Calls the service of this name in the node's namespace. Returns false if the node does not answer.
+  /// Calls the service of this name in the node's namespace. Throws NoAnswer, and Cancelled.
   template <class Service>
-  bool call(const std::string& name, const typename Service::Request& request, typename Service::Response& response)
+  typename Service::Response call(const std::string& name, const typename Service::Request& request,
+                                  const std::function<bool()>& is_cancelled)
   {
-    ros::ServiceClient client = take(name);
-    if (!client.isValid())
-      client = ros::NodeHandle().serviceClient<Service>(node_ + "/" + name, true);
-    if (!client.isValid())
-      return false;
-    typename Service::Request sent = request;
-    bool was_answered = false;
+    const CallLimit limit(timeout_, is_cancelled);
+    std::unique_ptr<ServiceConnection> connection = connected(name, ros::service_traits::md5sum<Service>(), limit);
+    std::vector<std::uint8_t> answer = connection->call(ros::serialization::serializeMessage(request), limit);
+    typename Service::Response response;
+    try
     {
-      const CallWatch::Guard guard(watch_, client);
-      was_answered = client.call(sent, response);
+      ros::serialization::IStream stream(answer.data(), static_cast<std::uint32_t>(answer.size()));
+      ros::serialization::deserialize(stream, response);
     }
-    if (was_answered)
-      giveBack(name, client);
-    return was_answered;
+    catch (const ros::serialization::StreamOverrunException& fault)
+    {
+      throw NoAnswer(std::string("the answer ends early: ") + fault.what());
+    }
+    giveBack(name, std::move(connection));
+    return response;
   }
 
  private:
-  ros::ServiceClient take(const std::string& name)
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    std::vector<ros::ServiceClient>& idle = idle_[name];
-    if (idle.empty())
-      return {};
-    const ros::ServiceClient client = idle.back();
-    idle.pop_back();
-    return client;
-  }
+  using Connections = std::vector<std::unique_ptr<ServiceConnection>>;
 
-  void giveBack(const std::string& name, const ros::ServiceClient& client)
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    idle_[name].push_back(client);
-  }
+  /// An idle connection, or a new one.
+  std::unique_ptr<ServiceConnection> connected(const std::string& name, const std::string& md5sum,
+                                               const CallLimit& limit);
+  void giveBack(const std::string& name, std::unique_ptr<ServiceConnection> connection);
 
   const std::string node_;
-  CallWatch& watch_;
+  const double timeout_;
   std::mutex mutex_;  // guards the member below
-  std::map<std::string, std::vector<ros::ServiceClient>> idle_;
+  std::map<std::string, Connections> idle_;
 };
 }  // namespace gpu_planning_scene::core

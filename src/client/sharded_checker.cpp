@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstdint>
-#include <mutex>
+#include <future>
 #include <optional>
 #include <string>
 #include <thread>
@@ -13,8 +12,8 @@
 #include <gpu_planning_scene/GetPlanningScene.h>
 #include <gpu_planning_scene/GetReport.h>
 #include <gpu_planning_scene/PlanningSceneComponents.h>
-#include <gpu_planning_scene/Status.h>
 
+#include "client/answers.h"
 #include "client/node_connections.h"
 #include "client/request_parts.h"
 #include "client/shared_work.h"
@@ -29,7 +28,7 @@ namespace
 using Clock = std::chrono::steady_clock;
 using Request = ShardedChecker::Request;
 using Response = ShardedChecker::Response;
-using gpu_planning_scene::Status;
+using CancelTest = std::function<bool()>;
 
 constexpr std::size_t kPartsPerNode = 2;         // or more, so that a slow node does not hold up the others
 constexpr std::size_t kUnsplitStates = 4096;     // of a request for one node: fewer are not worth the threads
@@ -37,131 +36,81 @@ constexpr std::size_t kLeastPart = 2048;         // states
 constexpr std::chrono::milliseconds kPause{20};  // before a busy node is asked again
 constexpr std::chrono::milliseconds kRetry{50};  // between two rounds with all nodes
 
-enum class Outcome
+/// Throws Error.
+void require(const ShardedCheckerOptions& options)
 {
-  Answered,
-  Unable,       ///< the node cannot answer now
-  Busy,         ///< it can answer soon
-  OtherScenes,  ///< it does not have the revision
-  Refused       ///< it does not accept the request
-};
-
-/// See Status.msg. A node with an internal error counts as one that refuses the request: other nodes get the request
-/// too, but if all of them fail, the client does not try again and again.
-Outcome outcomeOf(const Response& response, std::uint64_t revision)
-{
-  switch (response.status)
-  {
-    case Status::OK:
-      return revision == 0 || response.scene_revision == revision ? Outcome::Answered : Outcome::OtherScenes;
-    case Status::BUSY:
-      return Outcome::Busy;
-    case Status::UNKNOWN_REVISION:
-      return Outcome::OtherScenes;
-    case Status::SHUTTING_DOWN:
-    case Status::UNAVAILABLE:
-      return Outcome::Unable;
-    default:
-      return Outcome::Refused;
-  }
+  if (options.part_states == 0)
+    throw Error("part_states is 0; a part needs at least one state");
+  if (!(options.timeout > 0.0))  // also not a number
+    throw Error("timeout is not a positive number of seconds");
+  if (!(options.patience >= 0.0))
+    throw Error("patience is not a number of seconds of at least 0");
 }
-
-/// Why there is no answer.
-struct Failure
-{
-  std::uint8_t status = Status::UNAVAILABLE;
-  std::string message;
-};
-
-Response failed(const Failure& failure)
-{
-  Response response;
-  response.success = 0;
-  response.status = failure.status;
-  response.message = failure.message;
-  return response;
-}
-
-/// The errors of the nodes in a round after which parts of the request have no answer.
-class Failures
-{
- public:
-  void add(Outcome outcome, const Failure& failure)
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (outcome == Outcome::Refused)
-      refusal_ = failure;
-    else
-      is_passing_ = true;
-    lacks_scene_ = lacks_scene_ || outcome == Outcome::OtherScenes;
-    last_ = failure;
-  }
-
-  bool lacksScene() const { return lacks_scene_; }
-  /// The failure for the user.
-  const Failure& reported() const { return refusal_ ? *refusal_ : last_; }
-  /// Whether no other node and no later time will help.
-  bool areFinal() const { return refusal_ && !is_passing_; }
-
- private:
-  std::mutex mutex_;
-  std::optional<Failure> refusal_;
-  Failure last_;
-  bool is_passing_ = false;
-  bool lacks_scene_ = false;
-};
 }  // namespace
 
 struct ShardedChecker::Impl
 {
-  Impl(std::vector<std::string> names, const ShardedCheckerOptions& chosen) : options(chosen), watch(chosen.timeout)
+  Impl(const std::vector<std::string>& names, const ShardedCheckerOptions& chosen) : options(chosen)
   {
     if (names.empty())
       throw Error("a ShardedChecker needs at least one node; give the name of the leader first");
-    for (std::string& name : names)
-      nodes.push_back(std::make_unique<NodeConnections>(std::move(name), watch));
+    require(options);
+    for (const std::string& name : names)
+      nodes.push_back(std::make_unique<NodeConnections>(name, options.timeout));
   }
 
-  /// The revision and the robot's state of the first node that answers. False if none does.
-  bool findCommonState(CommonState& common)
+  /// The revision and the robot's state of the first node that gives them. No value: `failure` has the last reason.
+  std::optional<CommonState> findCommonState(const CancelTest& is_cancelled, Failure& failure)
   {
     gpu_planning_scene::GetPlanningScene::Request request;
     request.components.components = gpu_planning_scene::PlanningSceneComponents::ROBOT_STATE;
     for (const auto& node : nodes)
-      if (gpu_planning_scene::GetPlanningScene::Response response;
-          node->call<gpu_planning_scene::GetPlanningScene>("get_planning_scene", request, response))
+      try
       {
-        common = commonStateOf(response.scene);
-        return true;
+        const gpu_planning_scene::PlanningScene scene =
+            node->call<gpu_planning_scene::GetPlanningScene>("get_planning_scene", request, is_cancelled).scene;
+        if (scene.scene_revision != 0)
+          return commonStateOf(scene);
+        failure = noAnswerOf(node->node(), "its scene has no revision").failure;
       }
-    return false;
+      catch (const NoAnswer& fault)
+      {
+        failure = noAnswerOf(node->node(), std::string("its scene is missing: ") + fault.what()).failure;
+      }
+    return std::nullopt;
   }
 
   /// The number of variables of the robot; 0 if no node reports it.
-  std::size_t variableCount()
+  std::size_t variableCount(const CancelTest& is_cancelled)
   {
-    if (variables == 0)
-      for (const auto& node : nodes)
-      {
-        gpu_planning_scene::GetReport::Response report;
-        if (!node->call<gpu_planning_scene::GetReport>("get_report", {}, report) || !report.success)
-          continue;
-        const auto name = std::find(report.names.begin(), report.names.end(), "variables");
-        if (name != report.names.end())
-          variables = static_cast<std::size_t>(report.values[static_cast<std::size_t>(name - report.names.begin())]);
+    for (const auto& node : nodes)
+    {
+      if (variables != 0)
         break;
+      try
+      {
+        const auto report = node->call<gpu_planning_scene::GetReport>("get_report", {}, is_cancelled);
+        const auto name = std::find(report.names.begin(), report.names.end(), "variables");
+        const auto index = static_cast<std::size_t>(name - report.names.begin());
+        if (index < report.values.size())
+          variables = static_cast<std::size_t>(report.values[index]);
       }
+      catch (const NoAnswer&)
+      {
+        continue;  // the next node is asked
+      }
+    }
     return variables;
   }
 
-  std::vector<Request> split(const Request& request, const CommonState& common)
+  std::vector<Request> split(const Request& request, const CommonState& common, const CancelTest& is_cancelled)
   {
     std::vector<Request> parts;
     if (const std::size_t states = plainStates(request); states != 0)
     {
       const std::size_t wanted = kPartsPerNode * nodes.size();
       const std::size_t even = std::max(kLeastPart, (states + wanted - 1) / wanted);
-      parts = partsOf(request, common, variableCount(),
+      parts = partsOf(request, common, variableCount(is_cancelled),
                       states <= kUnsplitStates ? states : std::min(even, options.part_states));
     }
     if (parts.empty())
@@ -172,107 +121,155 @@ struct ShardedChecker::Impl
     return parts;
   }
 
-  /// Sends parts to one node until all are answered or the node fails.
-  void serve(NodeConnections& node, SharedWork& work, Failures& failures, Clock::time_point until)
-  {
-    while (const std::optional<std::size_t> part = work.take())
-    {
-      Response response;
-      const bool was_answered = node.call<gpu_planning_scene::CheckStates>("check_states", work.part(*part), response);
-      const Outcome outcome = was_answered ? outcomeOf(response, work.part(*part).scene_revision) : Outcome::Unable;
-      if (outcome == Outcome::Answered)
-      {
-        work.answer(*part, std::move(response));
-        continue;
-      }
-      work.giveBack(*part);
-      if (outcome != Outcome::Busy || Clock::now() > until)
-      {
-        Failure failure;
-        if (was_answered)
-          failure.status = response.status;
-        if (outcome == Outcome::OtherScenes)
-          failure.status = Status::UNKNOWN_REVISION;
-        failure.message = node.node() + ": " + (was_answered ? response.message : "the node does not answer");
-        failures.add(outcome, failure);
-        return;
-      }
-      std::this_thread::sleep_for(kPause);
-    }
-  }
-
-  void serveAll(SharedWork& work, std::size_t parts, Failures& failures, Clock::time_point until)
-  {
-    const std::size_t first = next++ % nodes.size();
-    const auto node = [&](std::size_t i) -> NodeConnections& { return *nodes[(first + i) % nodes.size()]; };
-    if (parts == 1)
-    {
-      for (std::size_t i = 0; i < nodes.size() && !work.isComplete(); ++i)
-        serve(node(i), work, failures, until);
-      return;
-    }
-    std::vector<std::thread> threads;
-    for (std::size_t i = 0; i < nodes.size(); ++i)
-      threads.emplace_back([&, i] { serve(node(i), work, failures, until); });
-    for (std::thread& thread : threads)
-      thread.join();
-  }
-
-  Response check(const Request& request)
-  {
-    const auto patience = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options.patience));
-    Clock::time_point until = Clock::now() + patience;
-    std::unique_ptr<SharedWork> work;
-    std::size_t parts = 0;
-    Failure failure{Status::UNAVAILABLE, "no node gives its scene"};
-    for (;;)
-    {
-      CommonState common;
-      if (!work && findCommonState(common))
-      {
-        common.revision = request.scene_revision == 0 ? common.revision : request.scene_revision;
-        std::vector<Request> made = split(request, common);
-        parts = made.size();
-        work = std::make_unique<SharedWork>(std::move(made));
-      }
-      if (work)
-      {
-        const std::size_t answered = work->answeredCount();
-        Failures failures;
-        serveAll(*work, parts, failures, until);
-        if (work->isComplete())
-          return joined(work->takeAnswers());
-        failure = failures.reported();
-        if (failures.areFinal())
-          return failed(failure);
-        if (work->answeredCount() > answered)
-          until = Clock::now() + patience;
-        // The next round begins with the newest scene, unless the request names another one.
-        if (failures.lacksScene() && request.scene_revision == 0)
-          work.reset();
-      }
-      if (Clock::now() > until)
-        return failed({failure.status, "no node can answer; the last reason: " + failure.message});
-      std::this_thread::sleep_for(kRetry);
-    }
-  }
-
   const ShardedCheckerOptions options;
-  CallWatch watch;
   std::vector<std::unique_ptr<NodeConnections>> nodes;
   std::atomic<std::size_t> next{0};       // the node that gets the next request that is not split
   std::atomic<std::size_t> variables{0};  // of the robot; 0: not known yet
 };
 
-ShardedChecker::ShardedChecker(std::vector<std::string> nodes, const ShardedCheckerOptions& options)
-  : impl_(std::make_unique<Impl>(std::move(nodes), options))
+/// One call of check().
+class ShardedChecker::Call
+{
+ public:
+  Call(Impl& checker, const Request& request, const CancelTest& is_cancelled)
+    : checker_(checker),
+      request_(request),
+      is_cancelled_(is_cancelled),
+      patience_(durationOf(checker.options.patience)),
+      until_(Clock::now() + patience_)
+  {
+  }
+
+  /// Rounds with all nodes, until the whole request is answered, or nothing will help, or the patience is over.
+  Response answer()
+  {
+    for (;;)
+    {
+      if (is_cancelled_ && is_cancelled_())
+        throw Cancelled();
+      if (hasWork())
+      {
+        Failures failures;
+        if (serveAll(failures))
+          return joined(work_->takeAnswers());
+        failure_ = failures.reported();
+        if (failures.areFinal())
+          return responseOf(failure_);
+        // The next round begins with the newest scene, unless the request names another one.
+        if (failures.lackScene() && request_.scene_revision == 0)
+          work_.reset();
+      }
+      if (Clock::now() > until_)
+        return responseOf({failure_.status, "no node can answer; the last reason: " + failure_.message});
+      std::this_thread::sleep_for(kRetry);
+    }
+  }
+
+ private:
+  /// Whether there are parts. Makes them if a node gives its scene.
+  bool hasWork()
+  {
+    if (work_)
+      return true;
+    std::optional<CommonState> common = checker_.findCommonState(is_cancelled_, failure_);
+    if (!common)
+      return false;
+    if (request_.scene_revision != 0)
+      common->revision = request_.scene_revision;
+    work_ = std::make_unique<SharedWork>(checker_.split(request_, *common, is_cancelled_));
+    return true;
+  }
+
+  /// A round with all nodes. Returns whether all parts are answered.
+  bool serveAll(Failures& failures)
+  {
+    const std::size_t answered = work_->answeredCount();
+    const std::size_t first = checker_.next++;
+    const auto node = [&](std::size_t i) -> NodeConnections&
+    { return *checker_.nodes[(first + i) % checker_.nodes.size()]; };
+    if (work_->count() == 1)
+      for (std::size_t i = 0; i < checker_.nodes.size() && !work_->isComplete(); ++i)
+        serve(node(i), failures);
+    else
+    {
+      std::vector<std::future<void>> threads;
+      for (std::size_t i = 0; i < checker_.nodes.size(); ++i)
+        threads.push_back(std::async(std::launch::async, [&, i] { serve(node(i), failures); }));
+      for (std::future<void>& thread : threads)
+        thread.get();
+    }
+    if (work_->answeredCount() > answered)
+      until_ = Clock::now() + patience_;
+    return work_->isComplete();
+  }
+
+  /// Sends parts to one node until all are answered or the node fails. If it throws, no node gets further parts.
+  void serve(NodeConnections& node, Failures& failures)
+  {
+    try
+    {
+      while (const std::optional<std::size_t> part = work_->take())
+      {
+        Answer answer = answerTo(work_->part(*part), node);
+        if (answer.outcome == Outcome::Answered)
+        {
+          work_->answer(*part, std::move(answer.response));
+          continue;
+        }
+        work_->giveBack(*part);
+        if (!asksAgain(answer.outcome))
+        {
+          failures.add(answer.outcome, answer.failure);
+          return;
+        }
+        std::this_thread::sleep_for(kPause);
+      }
+    }
+    catch (...)
+    {
+      work_->stop();
+      throw;
+    }
+  }
+
+  /// Whether a node gets parts in this round after such an outcome. A busy node does, while other threads serve the
+  /// other nodes. But a single part goes to the next node at once.
+  bool asksAgain(Outcome outcome) const
+  {
+    return outcome == Outcome::Busy && work_->count() > 1 && Clock::now() <= until_;
+  }
+
+  Answer answerTo(const Request& part, NodeConnections& node) const
+  {
+    try
+    {
+      return answerOf(node.node(), node.call<gpu_planning_scene::CheckStates>("check_states", part, is_cancelled_),
+                      part.scene_revision);
+    }
+    catch (const NoAnswer& fault)
+    {
+      return noAnswerOf(node.node(), fault.what());
+    }
+  }
+
+  Impl& checker_;
+  const Request& request_;
+  const CancelTest& is_cancelled_;
+  const Clock::duration patience_;
+  Clock::time_point until_;  // the patience ends
+  std::unique_ptr<SharedWork> work_;
+  Failure failure_;  // the last one
+};
+
+ShardedChecker::ShardedChecker(const std::vector<std::string>& nodes, const ShardedCheckerOptions& options)
+  : impl_(std::make_unique<Impl>(nodes, options))
 {
 }
 
 ShardedChecker::~ShardedChecker() = default;
 
-ShardedChecker::Response ShardedChecker::check(const Request& request)
+ShardedChecker::Response ShardedChecker::check(const Request& request, const std::function<bool()>& is_cancelled)
 {
-  return impl_->check(request);
+  return Call(*impl_, request, is_cancelled).answer();
 }
 }  // namespace gpu_planning_scene::core

@@ -13,8 +13,8 @@ SharedWork::SharedWork(std::vector<CheckStates::Request> parts)
 std::optional<std::size_t> SharedWork::take()
 {
   std::unique_lock<std::mutex> lock(mutex_);
-  changed_.wait(lock, [this] { return !open_.empty() || answered_ == parts_.size(); });
-  if (open_.empty())
+  changed_.wait(lock, [this] { return is_stopped_ || !open_.empty() || answered_ == parts_.size(); });
+  if (is_stopped_ || open_.empty())
     return std::nullopt;
   const std::size_t part = open_.front();
   open_.pop_front();
@@ -34,6 +34,13 @@ void SharedWork::giveBack(std::size_t part)
   const std::lock_guard<std::mutex> lock(mutex_);
   open_.push_front(part);
   changed_.notify_one();
+}
+
+void SharedWork::stop()
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_stopped_ = true;
+  changed_.notify_all();
 }
 
 std::size_t SharedWork::answeredCount() const

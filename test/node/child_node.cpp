@@ -43,6 +43,11 @@ void ChildNode::interrupt() const
   kill(process_, SIGINT);
 }
 
+void ChildNode::freeze() const
+{
+  kill(process_, SIGSTOP);
+}
+
 void ChildNode::askToShutDown() const
 {
   XmlRpc::XmlRpcValue request, response, uri;

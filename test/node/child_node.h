@@ -19,6 +19,8 @@ class ChildNode
 
   std::string service(const std::string& in_its_namespace) const { return "/" + name_ + "/" + in_its_namespace; }
   void interrupt() const;
+  /// The node does nothing more, but its connections stay.
+  void freeze() const;
   /// Asks the node to shut down as `rosnode kill` does.
   void askToShutDown() const;
   /// Waits up to `seconds` for the node to end. Returns its exit code; -1 if it still runs or was ended by a signal.

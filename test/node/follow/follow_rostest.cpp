@@ -386,6 +386,31 @@ TEST_F(Sharding, WithoutAnAnswerTheStatusIsThatOfTheLastReason)
   expect_status({kLeader}, Status::UNKNOWN_REVISION);
 }
 
+TEST_F(Sharding, ANodeThatHangsIsGivenUpAfterTheTimeout)
+{
+  const std::unique_ptr<ChildNode> frozen = follower("frozen", kLeader);
+  ASSERT_TRUE(reaches(*frozen, scene().scene_revision));
+  ShardedCheckerOptions options;
+  options.timeout = 2.0;
+  options.patience = 60.0;  // on a busy machine, the leader too may need more than the timeout
+  ShardedChecker connected({kLeader, "/frozen"}, options);
+  for (int i = 0; i < 2; ++i)  // one request to each node
+    ASSERT_TRUE(connected.check(stateRequest(free_state)).success);
+  frozen->freeze();
+  ShardedChecker unconnected({kLeader, "/frozen"}, options);
+  for (ShardedChecker* checker : {&connected, &unconnected})
+  {
+    for (int i = 0; i < 2; ++i)
+      EXPECT_TRUE(checker->check(stateRequest(free_state)).success);
+    expectOfOneScene(checker->check(manyStates(20000)), 20000);
+  }
+  options.patience = 0.0;
+  const CheckStates::Response none = ShardedChecker({"/frozen"}, options).check(stateRequest(free_state));
+  EXPECT_EQ(Status::UNAVAILABLE, none.status);
+  EXPECT_NE(std::string::npos, none.message.find("/frozen: ")) << none.message;
+  EXPECT_NE(std::string::npos, none.message.find("has not answered within 2 s")) << none.message;
+}
+
 TEST_F(Sharding, AnOlderRevisionCanBeNamed)
 {
   const std::uint64_t before = apply(diffWith(boxObject("box", farAway(), 0.2)));
