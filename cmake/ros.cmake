@@ -8,8 +8,8 @@ foreach(name PYTHON_EXECUTABLE Python3_EXECUTABLE)
   endif()
 endforeach()
 
-find_package(catkin REQUIRED COMPONENTS actionlib_msgs diagnostic_msgs geometry_msgs message_generation pluginlib roscpp roslib
-  sensor_msgs shape_msgs std_msgs tf2 tf2_ros trajectory_msgs visualization_msgs)
+find_package(catkin REQUIRED COMPONENTS actionlib_msgs diagnostic_msgs geometry_msgs message_generation pluginlib roscpp
+  roslib sensor_msgs shape_msgs std_msgs tf2 tf2_ros trajectory_msgs visualization_msgs)
 
 set(message_dependencies diagnostic_msgs geometry_msgs sensor_msgs shape_msgs std_msgs trajectory_msgs)
 add_message_files(FILES
