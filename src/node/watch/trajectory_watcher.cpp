@@ -153,7 +153,8 @@ void TrajectoryWatcher::run()
     std::vector<Order> orders = std::move(orders_);
     orders_.clear();
     const bool is_due = orders.empty() && !scene_changed_;
-    const Clock::time_point cause = is_due ? due : scene_changed_.value_or(Clock::now());
+    const bool is_change = scene_changed_ && !watched_.empty();
+    const Clock::time_point cause = is_due ? due : is_change ? *scene_changed_ : Clock::now();
     scene_changed_.reset();
     lock.unlock();
 
@@ -180,7 +181,7 @@ void TrajectoryWatcher::take(std::vector<Order>& orders)
       carryOut(order);
       return false;
     }
-    catch (const Error&)
+    catch (...)
     {
       order.answer.set_exception(std::current_exception());
       return true;

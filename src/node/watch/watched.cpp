@@ -18,6 +18,10 @@ namespace
 // itself: a look may find at most twice the time that has passed, plus this time, in seconds.
 constexpr double kAhead = 0.2;
 
+// A robot rarely reaches the last row of its trajectory to the last bit. In the last seconds before it, it has arrived
+// if the time of the trajectory is over.
+constexpr double kArrived = 0.1;
+
 std::vector<double> timesOf(const WatchTrajectory::Request& request)
 {
   std::vector<double> times;
@@ -52,6 +56,8 @@ Watched watchedOf(const WatchTrajectory::Request& request, const Snapshot& scene
   const RobotModel& robot = *scene.scene->robot;
   if (request.id.empty())
     throw Error("the trajectory has no name; give one in the field id");
+  if (now.isZero())
+    throw Error("the ROS clock stands at 0; with use_sim_time, start /clock first");
   if (!(request.max_deviation >= 0.0) || !std::isfinite(request.max_deviation))
     throw Error("max_deviation is " + std::to_string(request.max_deviation) +
                 "; it must be a finite number, at least 0 (0: no limit)");
@@ -115,6 +121,8 @@ void findProgress(const Snapshot& scene, const ros::Time& now, Watched& watched)
 
 bool hasEnded(const Watched& watched)
 {
-  return watched.progress.time >= watched.trajectory.rows.seconds.back();
+  const double end = watched.trajectory.rows.seconds.back();
+  const bool is_over = (watched.looked_at - watched.start).toSec() >= end;
+  return watched.progress.time >= (watched.follows && is_over ? end - kArrived : end);
 }
 }  // namespace gpu_planning_scene::core
