@@ -174,7 +174,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   kinematics_requests.advertise<ComputeFk>("compute_fk",
                                            [&](const ComputeFk::Request& r) { return kinematics.computeFk(r); });
 
-  Endpoints watch_requests(node, own, 3, diagnostics, require_scene);
+  Endpoints watch_requests(node, own, 3, diagnostics);  // the verdict says it if the scene is not known
   watch_requests.advertise<WatchTrajectory>("watch_trajectory",
                                             [&](const WatchTrajectory::Request& r) { return watcher.watch(r); });
 

@@ -47,6 +47,7 @@ Progress nearestRow(const RobotModel& robot, const WatchedTrajectory& trajectory
 /// The motion of the whole robot from a time to the end of the last trajectory: rows of all variables at the times of
 /// all rows. `delays`: seconds, one per trajectory: its rows come so much later. `state`: the values of the variables
 /// without a trajectory, one value per variable. No variable may be in two trajectories.
+/// Throws Error for a time or a delay that is not finite.
 TimedRows motionOfAll(const RobotModel& robot, const std::vector<const WatchedTrajectory*>& trajectories,
                       const std::vector<double>& delays, const std::vector<double>& state, double from);
 

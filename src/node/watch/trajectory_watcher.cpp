@@ -93,6 +93,19 @@ void TrajectoryWatcher::stop()
   }
   if (thread_.joinable())
     thread_.join();
+  if (!watched_.empty())
+  {
+    WatchState state;
+    state.header.stamp = ros::Time::now();
+    state.verdict = WatchState::UNKNOWN;
+    state.message = "the node ends; nothing is watched any more";
+    state.brake_in = -kInfinity;
+    state.collision_in = kInfinity;
+    for (const Watched& each : watched_)
+      state.ended.push_back(each.id);
+    publisher_.publish(state);
+    watched_.clear();
+  }
   for (Order& order : orders_)
     order.answer.set_exception(std::make_exception_ptr(ShuttingDown()));
   orders_.clear();
@@ -166,7 +179,7 @@ void TrajectoryWatcher::run()
     publisher_.publish(state);
     for (Order& order : orders)
       order.answer.set_value(state);
-    due = std::max(due + period, Clock::now());
+    due = Clock::now() + period;
     lock.lock();
   }
 }
@@ -202,6 +215,12 @@ void TrajectoryWatcher::carryOut(Order& order)
     ended_.push_back(id);
     return;
   }
+  for (const Watched& other : watched_)
+    if (other.id != id && (other.follows || order.added->follows))
+      throw Error("'" + (other.follows ? other.id : id) +
+                  "' follows joint_states, so no other trajectory can be watched beside it: where one robot is late, "
+                  "nothing is known about the place of both; watch several trajectories by the clock, with "
+                  "max_deviation");
   requireOwnJoints(*store_.snapshot().scene->robot, *order.added, watched_);
   if (same != watched_.end())
     *same = std::move(*order.added);
@@ -263,12 +282,11 @@ void TrajectoryWatcher::check(const Snapshot& scene, bool with_contact, WatchSta
   }
   const MotionChecker checker(checker_, scene.scene->robot, "", options_.motions);
   describe(outlookOf(checker, *scene.scene->robot, restOf(scene, watched_)), scene, with_contact, state);
-  if (state.verdict == WatchState::COLLISION)
-    return;
   for (const Watched& each : watched_)
     if (each.max_deviation > 0.0 && !(each.progress.deviation <= each.max_deviation))
     {
-      state.verdict = WatchState::OFF_PATH;
+      if (state.verdict != WatchState::COLLISION)
+        state.verdict = WatchState::OFF_PATH;
       state.message = "'" + each.id + "' is " + std::to_string(each.progress.deviation) +
                       " (radians or metres) beside its trajectory; at most " + std::to_string(each.max_deviation) +
                       " are allowed";

@@ -61,6 +61,10 @@ Watched watchedOf(const WatchTrajectory::Request& request, const Snapshot& scene
   if (!(request.max_deviation >= 0.0) || !std::isfinite(request.max_deviation))
     throw Error("max_deviation is " + std::to_string(request.max_deviation) +
                 "; it must be a finite number, at least 0 (0: no limit)");
+  if (request.follow_joint_states && request.max_deviation == 0.0)
+    throw Error(
+        "follow_joint_states needs max_deviation, for example 0.1: without it, a robot far beside its trajectory "
+        "would count as being on it");
   const RequestedTrajectory requested =
       requestedTrajectory(robot, request.joint_trajectory, request.multi_dof_joint_trajectory);
   requireWholeRotations(robot, requested.columns);
@@ -98,16 +102,20 @@ void findProgress(const Snapshot& scene, const ros::Time& now, Watched& watched)
   const WatchedTrajectory& trajectory = watched.trajectory;
   const RobotModel& robot = *scene.scene->robot;
   const bool is_measured = all(trajectory, scene.measured);
+  if (!is_measured)
+    watched.progress.deviation = std::numeric_limits<double>::quiet_NaN();
   if (!is_measured && (watched.follows || watched.max_deviation > 0.0))
     throw Error("'" + watched.id + "': joint_states has brought no values of all its joints in the last second");
   const double by_clock = (now - watched.start).toSec();
   const std::vector<double> values = valuesOf(trajectory, scene.state);
   if (watched.follows)
   {
-    const double passed = std::max((now - watched.looked_at).toSec(), 0.0);
-    watched.progress =
-        nearestRow(robot, trajectory, values, watched.progress.time,
-                   std::min(watched.progress.time + 2.0 * passed + kAhead, trajectory.rows.seconds.back()));
+    const double passed = (now - watched.looked_at).toSec();
+    if (passed < 0.0)
+      watched.progress.time = 0.0;  // the clock went back, as in a simulation that begins again
+    watched.progress = nearestRow(
+        robot, trajectory, values, watched.progress.time,
+        std::min(watched.progress.time + 2.0 * std::max(passed, 0.0) + kAhead, trajectory.rows.seconds.back()));
   }
   else
   {

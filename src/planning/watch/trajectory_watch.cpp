@@ -143,6 +143,9 @@ Progress nearestRow(const RobotModel& robot, const WatchedTrajectory& trajectory
 TimedRows motionOfAll(const RobotModel& robot, const std::vector<const WatchedTrajectory*>& trajectories,
                       const std::vector<double>& delays, const std::vector<double>& state, double from)
 {
+  const auto is_finite = [](double time) { return std::isfinite(time); };
+  if (!is_finite(from) || !std::all_of(delays.begin(), delays.end(), is_finite))
+    throw Error("the time from which a motion is wanted, or a delay, is not a finite number of seconds");
   TimedRows motion;
   motion.seconds = {from};
   for (std::size_t i = 0; i < trajectories.size(); ++i)

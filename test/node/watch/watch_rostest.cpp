@@ -244,6 +244,16 @@ TEST_F(Watch, AChangeIsAnsweredAtOnceHoweverLowTheRateIs)
   EXPECT_TRUE(becomes([&] { return collides_in == revision; }));
 }
 
+TEST_F(Watch, ManyChangesDoNotStopTheChecksAtTheRate)
+{
+  ASSERT_TRUE(watch(trajectory("turn")).success);
+  for (int i = 0; i < 300; ++i)
+    apply(diffWith(boxObject("box", farAway(), 0.1 + 0.001 * (i % 2))));
+  const ros::Time after = ros::Time::now() + ros::Duration(0.5);
+  EXPECT_TRUE(becomes([&] { return last().header.stamp > after; }));
+  EXPECT_LT((ros::Time::now() - after).toSec(), 1.0);
+}
+
 TEST_F(Watch, SaysWhenTheRobotMustBrake)
 {
   const std::uint64_t revision = apply(diffWith(boxAtTip(
@@ -300,6 +310,7 @@ TEST_F(Watch, ARobotThatIsNotMeasuredIsUnknown)
   ros::WallDuration(1.2).sleep();  // values of earlier tests are older than a second
   WatchTrajectory::Request request = trajectory("turn");
   request.follow_joint_states = true;
+  request.max_deviation = 0.1;
   const WatchTrajectory::Response response = watch(request);
   EXPECT_TRUE(response.success) << response.message;
   EXPECT_EQ(response.state.verdict, WatchState::UNKNOWN);
@@ -328,7 +339,14 @@ TEST_F(Watch, WrongRequestsAreRefusedAndNothingElseIsWatched)
   request = trajectory("a");
   request.joint_trajectory.points.clear();
   refuses(request, "points");
+  request = trajectory("a");
+  request.follow_joint_states = true;
+  refuses(request, "needs max_deviation");
   ASSERT_TRUE(watch(trajectory("a")).success);
+  request = trajectory("b");
+  request.follow_joint_states = true;
+  request.max_deviation = 0.1;
+  refuses(request, "follows joint_states");
   refuses(trajectory("b"), "is moved by the trajectory 'a'");
   EXPECT_TRUE(becomes([&] { return last().ids == std::vector<std::string>{"a"}; }));
   EXPECT_TRUE(watch(trajectory("a")).success) << "a trajectory of the same name is replaced";

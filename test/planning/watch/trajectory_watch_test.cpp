@@ -112,6 +112,13 @@ TEST_F(Crossing, ADelayedTrajectoryHasItsRowsLater)
   EXPECT_EQ(late.seconds, (std::vector<double>{0.0, 1.5, 3.5}));
 }
 
+TEST_F(Crossing, ATimeThatIsNotFiniteIsRefused)
+{
+  const WatchedTrajectory a = along(east, 0.0);
+  EXPECT_THROW(motionOfAll(robot, {&a}, {0.0}, {-1.0, -1.0}, std::nan("")), Error);
+  EXPECT_THROW(motionOfAll(robot, {&a}, {kInfinity}, {-1.0, -1.0}, 0.0), Error);
+}
+
 TEST_F(Crossing, ATrajectoryStandsBeforeItsStartAndAfterItsEnd)
 {
   const WatchedTrajectory into_the_way = {{north}, {{0.0, 1.0}, {-1.0, 0.0}}};
@@ -121,7 +128,7 @@ TEST_F(Crossing, ATrajectoryStandsBeforeItsStartAndAfterItsEnd)
   expectUntil(outlook(along(east, 0.0), out_of_the_way), 0.8);  // north waits at the origin
 }
 
-/// A cart that moves towards a wall. It may decelerate by 2 m/s^2.
+/// A cart that moves towards a wall.
 class Braking : public testing::Test
 {
  protected:
@@ -132,7 +139,6 @@ class Braking : public testing::Test
         "</link>" +
         jointXml("slide", "prismatic", "base", "cart",
                  "<axis xyz='1 0 0'/><limit lower='-5' upper='5' effort='1' velocity='4'/>")));
-    auto robot = std::make_shared<RobotModel>(*made.robot);
     WorldObject wall;
     wall.id = "wall";
     wall.pose = Eigen::Translation3d(1.2, 0.0, 0.0);
