@@ -10,7 +10,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// What the answer of a node means for the client. See Status.msg.
+/// The meaning of a node's answer for the client. See Status.msg.
 enum class Outcome
 {
   Answered,

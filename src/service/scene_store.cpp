@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/seconds_since.h"
 #include "base/text/name_list.h"
 #include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
@@ -18,8 +19,6 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-// Longer than between two messages of a running robot's joints. A joint whose messages end takes values from others.
-constexpr std::chrono::seconds kMeasuredFor{1};
 // Earlier scenes are kept for requests that many nodes answer together. These bounds keep them below some 100 MB.
 constexpr std::size_t kReplacedScenes = 64;
 constexpr std::size_t kReplacedShapes = 200000;
@@ -133,7 +132,7 @@ void dropMeasured(const Snapshot& now, SceneChange& change)
   for (auto variable = variables.begin(); variable != variables.end();)
   {
     const int index = now.scene->robot->variableIndex(variable->first);
-    const bool is_measured = index >= 0 && now.measured[static_cast<std::size_t>(index)];
+    const bool is_measured = index >= 0 && now.isMeasured(index);
     variable = is_measured ? variables.erase(variable) : std::next(variable);
   }
 }
@@ -163,11 +162,10 @@ Snapshot SceneStore::snapshot() const
     for (std::size_t i = 0; i < known_.size(); ++i)
       if (known_[i])
         oldest = std::min(oldest, stamps_[i]);
-    std::vector<bool> measured;
-    const Clock::time_point recently = Clock::now() - kMeasuredFor;
+    std::vector<double> ages;
     for (const Clock::time_point at : measured_at_)
-      measured.push_back(at >= recently);
-    now = {scene_, state_, known_, measured, {}, oldest == std::numeric_limits<std::int64_t>::max() ? 0 : oldest};
+      ages.push_back(at == Clock::time_point::min() ? std::numeric_limits<double>::infinity() : secondsSince(at));
+    now = {scene_, state_, known_, ages, {}, oldest == std::numeric_limits<std::int64_t>::max() ? 0 : oldest};
   }
   now.base = assumeBase(0, now.known, now.state);
   return now;

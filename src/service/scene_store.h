@@ -30,13 +30,16 @@ struct AssumedBase
 struct Snapshot
 {
   std::shared_ptr<const PlanningScene> scene;
-  std::vector<double> state;   ///< one value per variable
-  std::vector<bool> known;     ///< one per variable; an unknown variable has its default value, or that of `base`
-  std::vector<bool> measured;  ///< one per variable: whether SceneStore::updateState has set it in the last second
+  std::vector<double> state;  ///< one value per variable
+  std::vector<bool> known;    ///< one per variable; an unknown variable has its default value, or that of `base`
+  std::vector<double> ages;   ///< one per variable: seconds since SceneStore::updateState has set it; else infinity
   AssumedBase base = {};
   /// The oldest stamp (nanoseconds) of the known values; 0: a known value has no stamp, or no value is known.
   std::int64_t stamp = 0;
 
+  /// Whether SceneStore::updateState has set the variable in the last second. This is longer than between two messages
+  /// of a running robot's joints. A joint whose messages end takes values from others.
+  bool isMeasured(int variable) const { return ages[static_cast<std::size_t>(variable)] <= 1.0; }
   /// Whether all variables are known. The virtual joint counts as known if `base` has values. Passive joints always
   /// count as known.
   bool allKnown() const;
@@ -50,8 +53,8 @@ struct Snapshot
 /// Removes from `change` the values of variables that are not known, for example of a base that only the BaseSource
 /// knows.
 void dropUnknown(const Snapshot& now, SceneChange& change);
-/// Removes from `change` the values of measured variables (Snapshot::measured), because a followed node may have older
-/// ones.
+/// Removes from `change` the values of measured variables (Snapshot::isMeasured), because a followed node may have
+/// older ones.
 void dropMeasured(const Snapshot& now, SceneChange& change);
 
 /// The scene of a running service. A change is made completely or not at all. Thread-safe; readers never wait for a

@@ -53,7 +53,7 @@ LAYERS = {
     "node/follow": ["node/scene", "node/parameters"],
     "node/checks": ["node/messages", "node/endpoints", "collision/report"],
     "node/kinematics": ["node/checks", "node/parameters"],
-    "node/watch": ["node/messages", "node/endpoints", "planning/watch"],
+    "node/watch": ["node/checks", "planning/watch"],
     "node/moveit": ["node/follow", "node/kinematics"],
     "node/markers": ["node/messages", "node/endpoints", "render"],
     "node/planning": ["node/checks", "node/markers", "node/parameters", "planners"],

@@ -120,7 +120,7 @@ TEST_F(Store, OnlyVariablesOfUpdatesAreMeasuredAndOnlyForASecond)
   const auto measured = [this](const char* name)
   {
     const Snapshot now = store.snapshot();
-    return now.measured[static_cast<std::size_t>(now.scene->robot->variableIndex(name))];
+    return now.isMeasured(now.scene->robot->variableIndex(name));
   };
   EXPECT_TRUE(measured("slide"));
   EXPECT_FALSE(measured("turn"));

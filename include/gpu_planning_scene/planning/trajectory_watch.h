@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -39,10 +40,17 @@ struct Progress
   double deviation = 0.0;  ///< the largest difference of any variable from that row: radians or metres
 };
 
-/// The row between two times that is nearest to the values of the trajectory's variables, in the space of these values.
-/// Of equally near rows, the earliest.
-Progress nearestRow(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
-                    double earliest, double latest);
+/// The largest difference of any variable of a trajectory from its row at a time. `values`: those of its variables.
+double deviationAt(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
+                   double time);
+
+/// Where a robot is that was at the time `from` of its trajectory and has gone on since. The search follows the
+/// trajectory as long as its rows come nearer to `values` (those of its variables), and ends at the first row that is
+/// nearer than its neighbours. So it never takes a later row for the robot's place where a trajectory crosses itself or
+/// turns back; a robot that was lost for long has a large deviation instead. A part in which the trajectory stands has
+/// no length, and counts as passed.
+Progress progressFrom(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
+                      double from);
 
 /// The motion of the whole robot from a time to the end of the last trajectory: rows of all variables at the times of
 /// all rows. `delays`: seconds, one per trajectory: its rows come so much later. `state`: the values of the variables
@@ -51,7 +59,7 @@ Progress nearestRow(const RobotModel& robot, const WatchedTrajectory& trajectory
 TimedRows motionOfAll(const RobotModel& robot, const std::vector<const WatchedTrajectory*>& trajectories,
                       const std::vector<double>& delays, const std::vector<double>& state, double from);
 
-/// What is known about a motion. All times are those of its rows.
+/// The outlook of a motion: is it free, and until when? All times are those of its rows.
 struct MotionOutlook
 {
   bool free = false;        ///< the whole motion is free by the checker's rule
@@ -68,6 +76,8 @@ struct MotionOutlook
 };
 
 /// Checks a motion of the whole robot, as motionOfAll() makes it: by the samples and, under MotionRule::Bound, also
-/// between them. `checker`: of all pairs (group ""). Throws the errors of MotionChecker::check.
-MotionOutlook outlookOf(const MotionChecker& checker, const RobotModel& robot, const TimedRows& motion);
+/// between them. `checker`: of all pairs (group ""). `stop`: as for MotionChecker::check; throws Cancelled after it has
+/// returned true. Throws the errors of MotionChecker::check.
+MotionOutlook outlookOf(const MotionChecker& checker, const RobotModel& robot, const TimedRows& motion,
+                        const std::function<bool()>& stop = {});
 }  // namespace gpu_planning_scene::core

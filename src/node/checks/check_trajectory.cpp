@@ -3,7 +3,6 @@
 #include <tuple>
 #include <utility>
 
-#include "base/math_constants.h"
 #include "collision/motion/motions_of_group.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
@@ -40,26 +39,6 @@ std::vector<double> pathOf(const RequestedTrajectory& trajectory, const std::vec
     for (const int column : trajectory.columns)
       path[row * width + static_cast<std::size_t>(column)] = *value++;
   return path;
-}
-
-/// A warning about the first continuous or planar joint that turns by more than half a turn within a part; otherwise
-/// empty. A controller may turn it in the longer direction, which is not checked.
-std::string longTurn(const RobotModel& robot, const std::vector<double>& path)
-{
-  const std::size_t width = robot.variables().size();
-  for (const Joint& joint : robot.joints())
-  {
-    const bool turns =
-        joint.type == JointType::Planar || (joint.type == JointType::Continuous && isPeriodic(robot, joint));
-    if (!turns || joint.mimic)
-      continue;
-    const auto column = static_cast<std::size_t>(joint.first_variable) + (joint.type == JointType::Planar ? 2U : 0U);
-    for (std::size_t row = 1; row * width < path.size(); ++row)
-      if (std::abs(path[row * width + column] - path[(row - 1) * width + column]) > kPi)
-        return "joint '" + joint.name + "' moves by more than half a turn before " + rowName(row) +
-               "; it is checked in the shorter direction: give more waypoints if it turns in the other one";
-  }
-  return "";
 }
 
 void fill(const CheckAnswer& answer, CheckTrajectory::Response& response)
@@ -151,7 +130,7 @@ CheckTrajectory::Response CheckServices::checkTrajectory(const CheckTrajectory::
         if (are_within && rule == MotionRule::Bound)
           addWarning(unproven(answer.motions, "part"), response.message);
         addWarning(givenUp(answer.motions, options_.max_motion_checks, "part"), response.message);
-        addWarning(longTurn(robot, path), response.message);
+        addWarning(longTurn(robot, path, rowName), response.message);
         addWarnings(scene.warnings, response.message);
         addWarning(assumed_base, response.message);
       });

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <sstream>
 
+#include "base/math_constants.h"
 #include "collision/bounds/reach.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
@@ -101,5 +102,24 @@ std::string givenUp(const std::vector<MotionVerdict>& motions, std::size_t max_c
          "s are not proven free, because " + std::to_string(max_checks) +
          " checks (limits/motion_checks) did not suffice; the first is " + what + " " +
          std::to_string(first - motions.begin()) + "; send fewer or shorter " + what + "s in one request";
+}
+
+std::string longTurn(const RobotModel& robot, const std::vector<double>& path,
+                     const std::function<std::string(std::size_t row)>& name_of)
+{
+  const std::size_t width = robot.variables().size();
+  for (const Joint& joint : robot.joints())
+  {
+    const bool turns =
+        joint.type == JointType::Planar || (joint.type == JointType::Continuous && isPeriodic(robot, joint));
+    if (!turns || joint.mimic)
+      continue;
+    const auto column = static_cast<std::size_t>(joint.first_variable) + (joint.type == JointType::Planar ? 2U : 0U);
+    for (std::size_t row = 1; row * width < path.size(); ++row)
+      if (std::abs(path[row * width + column] - path[(row - 1) * width + column]) > kPi)
+        return "joint '" + joint.name + "' moves by more than half a turn before " + name_of(row) +
+               "; it is checked in the shorter direction: give more waypoints if it turns in the other one";
+  }
+  return "";
 }
 }  // namespace gpu_planning_scene::core

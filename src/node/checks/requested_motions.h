@@ -43,4 +43,9 @@ std::string unproven(const std::vector<MotionVerdict>& motions, const std::strin
 
 /// A warning if the limit of checks left motions undecided; otherwise empty. `what`: see RequestedMotions.
 std::string givenUp(const std::vector<MotionVerdict>& motions, std::size_t max_checks, const std::string& what);
+
+/// A warning about the first continuous or planar joint that turns by more than half a turn between two rows of a path;
+/// otherwise empty. A controller may turn it in the longer direction, which is not checked. `path`: full states.
+std::string longTurn(const RobotModel& robot, const std::vector<double>& path,
+                     const std::function<std::string(std::size_t row)>& name_of);
 }  // namespace gpu_planning_scene::core

@@ -8,40 +8,19 @@
 
 #include "base/seconds_since.h"
 #include "gpu_planning_scene/error.h"
-#include "model/full_states.h"
 #include "node/endpoints/respond.h"
-#include "node/messages/contact_messages.h"
 #include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
+constexpr std::chrono::seconds kFindAction{1};  // for the connection to an action server
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool isFault(const WatchState& state)
 {
   return state.verdict != WatchState::FREE && state.verdict != WatchState::NONE;
-}
-
-/// The motion of the whole robot from now (0 s) on. Each trajectory continues from where the robot is on it.
-TimedRows restOf(const Snapshot& scene, const std::vector<Watched>& watched)
-{
-  const RobotModel& robot = *scene.scene->robot;
-  std::vector<const WatchedTrajectory*> trajectories;
-  std::vector<double> delays;
-  std::vector<int> columns;
-  std::vector<double> values;
-  for (const Watched& each : watched)
-  {
-    trajectories.push_back(&each.trajectory);
-    delays.push_back(-each.progress.time);
-    columns.insert(columns.end(), each.trajectory.columns.begin(), each.trajectory.columns.end());
-    const std::vector<double> row = rowAt(robot, each.trajectory, each.progress.time);
-    values.insert(values.end(), row.begin(), row.end());
-  }
-  const std::vector<double> state = fullStates(robot, columns, values.data(), 1, scene.partialState());
-  return motionOfAll(robot, trajectories, delays, state, 0.0);
 }
 
 /// Throws Error if another trajectory moves a joint of this one.
@@ -57,16 +36,14 @@ void requireOwnJoints(const RobotModel& robot, const Watched& added, const std::
 }  // namespace
 
 TrajectoryWatcher::TrajectoryWatcher(ros::NodeHandle& node, ros::NodeHandle& own, SceneStore& store,
-                                     MakeChecker make_checker, InspectorOf inspector_of,
+                                     MakeChecker make_checker, RestChecker::InspectorOf inspector_of,
                                      std::function<void()> require_scene, const WatcherOptions& options)
   : node_(node),
     store_(store),
-    make_checker_(std::move(make_checker)),
-    inspector_of_(std::move(inspector_of)),
     require_scene_(std::move(require_scene)),
     options_(options),
     publisher_(own.advertise<WatchState>("watch", 100, true)),
-    thread_([this] { run(); })
+    rest_checker_(std::move(make_checker), std::move(inspector_of), options.motions)
 {
   store_.setListener(
       this,
@@ -76,6 +53,7 @@ TrajectoryWatcher::TrajectoryWatcher(ros::NodeHandle& node, ros::NodeHandle& own
         scene_changed_ = scene_changed_.value_or(Clock::now());
         changed_.notify_one();
       });
+  thread_ = std::thread([this] { run(); });
 }
 
 TrajectoryWatcher::~TrajectoryWatcher()
@@ -120,21 +98,31 @@ WatchTrajectory::Response TrajectoryWatcher::watch(const WatchTrajectory::Reques
         if (request.stop)
           order.removed = request.id;
         else
-          order.added = newWatched(request);
+          order.added = newWatched(request, response.message);
         response.state = submit(std::move(order)).get();
       });
 }
 
-Watched TrajectoryWatcher::newWatched(const WatchTrajectory::Request& request)
+Watched TrajectoryWatcher::newWatched(const WatchTrajectory::Request& request, std::string& warnings)
 {
   if (const std::size_t rows =
           std::max(request.joint_trajectory.points.size(), request.multi_dof_joint_trajectory.points.size());
       rows > options_.max_rows)
     throw Error("the trajectory has " + std::to_string(rows) + " points; the limit is " +
                 std::to_string(options_.max_rows));
-  Watched added = watchedOf(request, store_.snapshot(), ros::Time::now());
-  if (!request.cancel_action.empty())
-    added.cancel = node_.advertise<actionlib_msgs::GoalID>(request.cancel_action + "/cancel", 10);
+  Watched added = watchedOf(request, store_.snapshot(), ros::Time::now(), warnings);
+  if (request.cancel_action.empty())
+    return added;
+  added.cancel = node_.advertise<actionlib_msgs::GoalID>(request.cancel_action + "/cancel", 10);
+  const auto until = Clock::now() + kFindAction;
+  while (added.cancel.getNumSubscribers() == 0)
+  {
+    if (Clock::now() > until)
+      throw Error("nobody listens to " + added.cancel.getTopic() +
+                  "; cancel_action must be the name of a running "
+                  "action server");
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
   return added;
 }
 
@@ -153,6 +141,7 @@ void TrajectoryWatcher::run()
 {
   const auto period = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / options_.rate));
   Clock::time_point due = Clock::now();
+  Clock::time_point contact_due = due;
   std::unique_lock<std::mutex> lock(mutex_);
   while (!stopping_)
   {
@@ -172,9 +161,11 @@ void TrajectoryWatcher::run()
     lock.unlock();
 
     take(orders);
-    WatchState state = look(is_due);
-    if (isFault(state))
-      cancelGoals();
+    const bool with_contact = is_due || Clock::now() >= contact_due;  // also while changes come all the time
+    if (with_contact)
+      contact_due = Clock::now() + period;
+    WatchState state = look(with_contact);
+    cancelGoals(state);
     state.latency = secondsSince(cause);
     publisher_.publish(state);
     for (Order& order : orders)
@@ -187,20 +178,18 @@ void TrajectoryWatcher::run()
 /// Carries out the orders, and drops those that cannot be carried out: they get their error.
 void TrajectoryWatcher::take(std::vector<Order>& orders)
 {
-  const auto fails = [this](Order& order)
-  {
+  std::vector<Order> taken;
+  for (Order& order : orders)
     try
     {
       carryOut(order);
-      return false;
+      taken.push_back(std::move(order));
     }
     catch (...)
     {
       order.answer.set_exception(std::current_exception());
-      return true;
     }
-  };
-  orders.erase(std::remove_if(orders.begin(), orders.end(), fails), orders.end());
+  orders = std::move(taken);
 }
 
 void TrajectoryWatcher::carryOut(Order& order)
@@ -221,6 +210,12 @@ void TrajectoryWatcher::carryOut(Order& order)
                   "' follows joint_states, so no other trajectory can be watched beside it: where one robot is late, "
                   "nothing is known about the place of both; watch several trajectories by the clock, with "
                   "max_deviation");
+  std::size_t rows = order.added->trajectory.rows.seconds.size();
+  for (const Watched& other : watched_)
+    rows += other.id == id ? 0 : other.trajectory.rows.seconds.size();
+  if (rows > options_.max_rows)
+    throw Busy("all watched trajectories together would have " + std::to_string(rows) + " points; the limit is " +
+               std::to_string(options_.max_rows) + ": stop watching one");
   requireOwnJoints(*store_.snapshot().scene->robot, *order.added, watched_);
   if (same != watched_.end())
     *same = std::move(*order.added);
@@ -236,6 +231,9 @@ WatchState TrajectoryWatcher::look(bool with_contact)
   state.header.stamp = ros::Time::now();
   state.collision_in = kInfinity;
   state.brake_in = kInfinity;
+  const auto until =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(options_.longest_check));
+  const auto is_over = [&] { return stopping_ || Clock::now() > until; };
   const Fault fault = faultOf(
       [&]
       {
@@ -244,85 +242,50 @@ WatchState TrajectoryWatcher::look(bool with_contact)
         state.header.frame_id = scene.scene->robot->planningFrame();
         state.scene_revision = scene.scene->revision;
         for (Watched& each : watched_)
-          findProgress(scene, state.header.stamp, each);
-        const auto ended = std::stable_partition(watched_.begin(), watched_.end(),
-                                                 [](const Watched& each) { return !hasEnded(each); });
-        for (auto each = ended; each != watched_.end(); ++each)
-          ended_.push_back(each->id);
-        watched_.erase(ended, watched_.end());
+          findPlace(scene, state.header.stamp, each);
+        for (const Watched& each : watched_)
+          if (each.has_ended)
+            ended_.push_back(each.id);
+        watched_.erase(
+            std::remove_if(watched_.begin(), watched_.end(), [](const Watched& each) { return each.has_ended; }),
+            watched_.end());
         state.verdict = WatchState::NONE;
         if (!watched_.empty())
-          check(scene, with_contact, state);
+          rest_checker_.check(scene, watched_, with_contact, is_over, state);
       });
   if (fault)
   {
     state.verdict = WatchState::UNKNOWN;
-    state.message = fault.message;
+    state.message =
+        is_over() ? "the check has taken more than " + std::to_string(options_.longest_check) + " s" : fault.message;
+    state.free_for = 0.0;
+    state.collision_in = kInfinity;
     state.brake_in = -kInfinity;
   }
   for (const Watched& each : watched_)
   {
     state.ids.push_back(each.id);
-    state.deviations.push_back(each.progress.deviation);
+    state.deviations.push_back(each.deviation);
   }
   state.ended = std::exchange(ended_, {});
   return state;
 }
 
-void TrajectoryWatcher::check(const Snapshot& scene, bool with_contact, WatchState& state)
+/// Cancels the goals that were sent before the way was blocked. Goals that come later, for example to leave the place,
+/// are not cancelled.
+void TrajectoryWatcher::cancelGoals(const WatchState& state)
 {
-  if (checkers_scene_ != scene.scene)
+  for (Watched& each : watched_)
   {
-    checkers_scene_.reset();  // until the checker has the new one
-    if (checker_)
-      checker_->setScene(scene.scene);
-    else
-      checker_ = make_checker_(scene.scene);
-    checkers_scene_ = scene.scene;
+    if (!isFault(state))
+      each.blocked_since = ros::Time();
+    else if (each.blocked_since.isZero())
+      each.blocked_since = state.header.stamp;
+    if (!isFault(state) || !each.cancel)
+      continue;
+    actionlib_msgs::GoalID goals;  // without an id: all goals up to the stamp
+    goals.stamp = each.blocked_since;
+    each.cancel.publish(goals);
   }
-  const MotionChecker checker(checker_, scene.scene->robot, "", options_.motions);
-  describe(outlookOf(checker, *scene.scene->robot, restOf(scene, watched_)), scene, with_contact, state);
-  for (const Watched& each : watched_)
-    if (each.max_deviation > 0.0 && !(each.progress.deviation <= each.max_deviation))
-    {
-      if (state.verdict != WatchState::COLLISION)
-        state.verdict = WatchState::OFF_PATH;
-      state.message = "'" + each.id + "' is " + std::to_string(each.progress.deviation) +
-                      " (radians or metres) beside its trajectory; at most " + std::to_string(each.max_deviation) +
-                      " are allowed";
-      state.free_for = 0.0;
-      state.brake_in = -kInfinity;
-    }
-}
-
-void TrajectoryWatcher::describe(const MotionOutlook& outlook, const Snapshot& scene, bool with_contact,
-                                 WatchState& state)
-{
-  state.verdict = outlook.free                   ? WatchState::FREE
-                  : outlook.colliding == kNoPair ? WatchState::NOT_PROVEN
-                                                 : WatchState::COLLISION;
-  state.free_for = outlook.free_until;
-  state.collision_in = outlook.collision;
-  state.brake_in = outlook.brake_by;
-  if (outlook.colliding == kNoPair)
-    return;
-  state.body_1 = scene.scene->bodyName(outlook.colliding[0]);
-  state.body_2 = scene.scene->bodyName(outlook.colliding[1]);
-  if (!with_contact)
-    return;
-  state.message = errorOf(
-      [&]
-      {
-        for (const Contact& contact : inspector_of_(scene.scene)->contacts(outlook.state.data(), "", 256, 1))
-          if (contact.bodies == outlook.colliding)
-            state.contacts = {messageOf(contact, *scene.scene, 0)};
-      });
-}
-
-void TrajectoryWatcher::cancelGoals() const
-{
-  for (const Watched& each : watched_)
-    if (each.cancel)
-      each.cancel.publish(actionlib_msgs::GoalID());  // an empty one cancels all goals
 }
 }  // namespace gpu_planning_scene::core

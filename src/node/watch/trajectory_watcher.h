@@ -1,11 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <functional>
 #include <future>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -14,9 +14,7 @@
 
 #include <ros/node_handle.h>
 
-#include "gpu_planning_scene/state_inspector.h"
-#include "node/watch/watched.h"
-#include "service/make_checker.h"
+#include "node/watch/rest_checker.h"
 
 namespace gpu_planning_scene::core
 {
@@ -24,7 +22,8 @@ struct WatcherOptions
 {
   double rate = 20.0;              ///< checks per second while the scene does not change: ~watch/rate
   std::size_t max_watched = 64;    ///< trajectories
-  std::size_t max_rows = 100'000;  ///< of one trajectory
+  std::size_t max_rows = 100'000;  ///< of all trajectories together
+  double longest_check = 1.0;      ///< seconds; a check that takes longer ends with the verdict UNKNOWN
   MotionCheckerOptions motions = {};
 };
 
@@ -34,14 +33,11 @@ struct WatcherOptions
 class TrajectoryWatcher
 {
  public:
-  using InspectorOf =
-      std::function<std::shared_ptr<const StateInspector>(const std::shared_ptr<const PlanningScene>& scene)>;
-
-  /// `store` must outlive the watcher. `make_checker`: makes the watcher's own checker. `inspector_of`: the inspector
-  /// of a scene, for contacts. `require_scene`: throws Error while the scene is not known, for example because the node
-  /// that this one follows is lost.
+  /// `store` must outlive the watcher. `make_checker`, `inspector_of`: see RestChecker. `require_scene`: throws Error
+  /// while the scene is not known, for example because the node that this one follows is lost.
   TrajectoryWatcher(ros::NodeHandle& node, ros::NodeHandle& own, SceneStore& store, MakeChecker make_checker,
-                    InspectorOf inspector_of, std::function<void()> require_scene, const WatcherOptions& options);
+                    RestChecker::InspectorOf inspector_of, std::function<void()> require_scene,
+                    const WatcherOptions& options);
   /// Calls stop().
   ~TrajectoryWatcher();
 
@@ -62,7 +58,7 @@ class TrajectoryWatcher
     std::promise<WatchState> answer;
   };
 
-  Watched newWatched(const WatchTrajectory::Request& request);
+  Watched newWatched(const WatchTrajectory::Request& request, std::string& warnings);
   std::future<WatchState> submit(Order order);
 
   // The functions and members below belong to the thread.
@@ -70,27 +66,24 @@ class TrajectoryWatcher
   void take(std::vector<Order>& orders);
   void carryOut(Order& order);
   WatchState look(bool with_contact);
-  void check(const Snapshot& scene, bool with_contact, WatchState& state);
-  void describe(const MotionOutlook& outlook, const Snapshot& scene, bool with_contact, WatchState& state);
-  void cancelGoals() const;
+  void cancelGoals(const WatchState& state);
 
   ros::NodeHandle node_;
   SceneStore& store_;
   const MakeChecker make_checker_;
-  const InspectorOf inspector_of_;
+  const RestChecker::InspectorOf inspector_of_;
   const std::function<void()> require_scene_;
   const WatcherOptions options_;
   ros::Publisher publisher_;
   std::vector<Watched> watched_;
   std::vector<std::string> ended_;  // since the last message
-  std::shared_ptr<StateChecker> checker_;
-  std::shared_ptr<const PlanningScene> checkers_scene_;
+  RestChecker rest_checker_;
 
   std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   std::vector<Order> orders_;
   std::optional<Clock::time_point> scene_changed_;  // since the last check began
-  bool stopping_ = false;
-  std::thread thread_;  // last: it uses the other members
+  std::atomic<bool> stopping_{false};               // is read without the mutex too
+  std::thread thread_;                              // last: it uses the other members
 };
 }  // namespace gpu_planning_scene::core

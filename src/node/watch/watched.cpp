@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/interpolation.h"
 #include "model/full_states.h"
+#include "node/checks/requested_motions.h"
+#include "node/endpoints/respond.h"
 #include "node/messages/requested_states.h"
 #include "node/messages/requested_trajectory.h"
 
@@ -14,13 +16,9 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// A robot that is slower than its trajectory is found again, but not at a later place of a trajectory that crosses
-// itself: a look may find at most twice the time that has passed, plus this time, in seconds.
-constexpr double kAhead = 0.2;
-
-// A robot rarely reaches the last row of its trajectory to the last bit. In the last seconds before it, it has arrived
-// if the time of the trajectory is over.
-constexpr double kArrived = 0.1;
+constexpr double kFresh = 0.25;     // seconds: values of joint_states count up to this age
+constexpr double kArrived = 0.01;   // radians or metres: a robot this near to the last row has reached it
+constexpr double kAtRequest = 0.5;  // seconds: a start this near to the request is that of the current state
 
 std::vector<double> timesOf(const WatchTrajectory::Request& request)
 {
@@ -42,18 +40,19 @@ std::vector<double> valuesOf(const WatchedTrajectory& trajectory, const std::vec
   return values;
 }
 
-template <class Flags>
-bool all(const WatchedTrajectory& trajectory, const Flags& flags)
+bool movesFloatingJoint(const RobotModel& robot, const WatchedTrajectory& trajectory)
 {
-  return std::all_of(
-      trajectory.columns.begin(), trajectory.columns.end(),
-      [&](int column) { return flags[static_cast<std::size_t>(column)]; });
+  return std::any_of(
+      robot.joints().begin(), robot.joints().end(),
+      [&](const Joint& joint)
+      {
+        return joint.type == JointType::Floating &&
+               std::count(trajectory.columns.begin(), trajectory.columns.end(), joint.first_variable + 3) != 0;
+      });
 }
-}  // namespace
 
-Watched watchedOf(const WatchTrajectory::Request& request, const Snapshot& scene, const ros::Time& now)
+void requireSensible(const WatchTrajectory::Request& request, const ros::Time& now)
 {
-  const RobotModel& robot = *scene.scene->robot;
   if (request.id.empty())
     throw Error("the trajectory has no name; give one in the field id");
   if (now.isZero())
@@ -63,8 +62,47 @@ Watched watchedOf(const WatchTrajectory::Request& request, const Snapshot& scene
                 "; it must be a finite number, at least 0 (0: no limit)");
   if (request.follow_joint_states && request.max_deviation == 0.0)
     throw Error(
-        "follow_joint_states needs max_deviation, for example 0.1: without it, a robot far beside its trajectory "
-        "would count as being on it");
+        "follow_joint_states needs max_deviation, for example 0.1: without it, a robot far beside its "
+        "trajectory would count as being on it");
+}
+
+/// A controller moves from the current state to a first point that is later than the start.
+void addCurrentState(const Snapshot& scene, const ros::Time& now, Watched& watched)
+{
+  WatchedTrajectory& trajectory = watched.trajectory;
+  const double first = trajectory.rows.seconds.front();
+  if (!(first > 0.0))
+    return;
+  const std::vector<bool> known = scene.partialState().known;
+  const bool are_known = std::all_of(trajectory.columns.begin(), trajectory.columns.end(),
+                                     [&](int column) { return known[static_cast<std::size_t>(column)]; });
+  if (!are_known || std::abs((watched.start - now).toSec()) > kAtRequest)
+    throw Error("the first point is at " + std::to_string(first) +
+                " s, and the robot's state at the start is not "
+                "known; give a first point at 0 s");
+  const std::vector<double> values = valuesOf(trajectory, scene.state);
+  trajectory.rows.seconds.insert(trajectory.rows.seconds.begin(), 0.0);
+  trajectory.rows.values.insert(trajectory.rows.values.begin(), values.begin(), values.end());
+}
+
+/// Throws Error for a motion that a controller may make in another way than it is checked.
+void requireOneWay(const RobotModel& robot, const std::vector<double>& states, std::size_t rows)
+{
+  const auto name_of = [](std::size_t row) { return "row " + std::to_string(row); };
+  if (const std::string turn = longTurn(robot, states, name_of); !turn.empty())
+    throw Error(turn);
+  const std::size_t width = robot.variables().size();
+  if (const std::string sideways = sidewaysMotion(robot, states.data(), states.data() + width, rows - 1, "part");
+      !sideways.empty())
+    throw Error(sideways);
+}
+}  // namespace
+
+Watched watchedOf(const WatchTrajectory::Request& request, const Snapshot& scene, const ros::Time& now,
+                  std::string& warnings)
+{
+  requireSensible(request, now);
+  const RobotModel& robot = *scene.scene->robot;
   const RequestedTrajectory requested =
       requestedTrajectory(robot, request.joint_trajectory, request.multi_dof_joint_trajectory);
   requireWholeRotations(robot, requested.columns);
@@ -76,61 +114,62 @@ Watched watchedOf(const WatchTrajectory::Request& request, const Snapshot& scene
   const std_msgs::Header& header = request.joint_trajectory.points.empty() ? request.multi_dof_joint_trajectory.header
                                                                            : request.joint_trajectory.header;
   watched.start = header.stamp.isZero() ? now : header.stamp;
-  watched.looked_at = std::min(watched.start, now);
+  watched.looked_at = now;
   WatchedTrajectory& trajectory = watched.trajectory;
   trajectory.columns = requested.columns;
   trajectory.rows = {timesOf(request), requested.rows};
-  if (trajectory.rows.seconds.front() > 0.0)
-  {
-    if (!all(trajectory, scene.partialState().known))
-      throw Error("the first point is at " + std::to_string(trajectory.rows.seconds.front()) +
-                  " s, and the current state has no values for all of its joints; give a first point at 0 s");
-    const std::vector<double> first = valuesOf(trajectory, scene.state);
-    trajectory.rows.seconds.insert(trajectory.rows.seconds.begin(), 0.0);
-    trajectory.rows.values.insert(trajectory.rows.values.begin(), first.begin(), first.end());
-  }
+  if (watched.max_deviation > 0.0 && movesFloatingJoint(robot, trajectory))
+    throw Error(
+        "the trajectory moves a floating joint, whose rotation joint_states does not bring; leave "
+        "follow_joint_states and max_deviation out");
+  addCurrentState(scene, now, watched);
   validateTrajectory(trajectory);
   const std::size_t rows = trajectory.rows.seconds.size();
   const std::vector<double> states =
       fullStates(robot, trajectory.columns, trajectory.rows.values.data(), rows, PartialState(robot, scene.state));
-  validateStates(robot, states.data(), rows, "waypoint");
+  validateStates(robot, states.data(), rows, "row");
+  requireOneWay(robot, states, rows);
+  addWarning(beyondLimits(robot, states.data(), rows, [](std::size_t row) { return "row " + std::to_string(row); }),
+             warnings);
   return watched;
 }
 
-void findProgress(const Snapshot& scene, const ros::Time& now, Watched& watched)
+void findPlace(const Snapshot& scene, const ros::Time& now, Watched& watched)
 {
   const WatchedTrajectory& trajectory = watched.trajectory;
   const RobotModel& robot = *scene.scene->robot;
-  const bool is_measured = all(trajectory, scene.measured);
+  double oldest = 0.0;
+  for (const int column : trajectory.columns)
+    oldest = std::max(oldest, scene.ages[static_cast<std::size_t>(column)]);
+  const bool is_measured = oldest <= kFresh;
   if (!is_measured)
-    watched.progress.deviation = std::numeric_limits<double>::quiet_NaN();
-  if (!is_measured && (watched.follows || watched.max_deviation > 0.0))
-    throw Error("'" + watched.id + "': joint_states has brought no values of all its joints in the last second");
+    watched.deviation = std::numeric_limits<double>::quiet_NaN();
+  if (!is_measured && watched.max_deviation > 0.0)
+    throw Error("'" + watched.id + "': joint_states has brought no values of all its joints in the last " +
+                std::to_string(kFresh).substr(0, 4) + " s");
+
   const double by_clock = (now - watched.start).toSec();
+  const double end = trajectory.rows.seconds.back();
   const std::vector<double> values = valuesOf(trajectory, scene.state);
   if (watched.follows)
   {
-    const double passed = (now - watched.looked_at).toSec();
-    if (passed < 0.0)
-      watched.progress.time = 0.0;  // the clock went back, as in a simulation that begins again
-    watched.progress = nearestRow(
-        robot, trajectory, values, watched.progress.time,
-        std::min(watched.progress.time + 2.0 * std::max(passed, 0.0) + kAhead, trajectory.rows.seconds.back()));
+    // A clock that goes back is that of a simulation that begins again.
+    const double before = now < watched.looked_at ? 0.0 : watched.time;
+    const Progress progress = progressFrom(robot, trajectory, values, before);
+    watched.time = progress.time;
+    watched.deviation = progress.deviation;
+    watched.age = oldest;
+    const std::size_t last_part = std::max<std::size_t>(trajectory.rows.seconds.size(), 2) - 2;
+    watched.has_ended = by_clock >= end && progress.time >= trajectory.rows.seconds[last_part] &&
+                        deviationAt(robot, trajectory, values, end) <= kArrived;
   }
   else
   {
-    watched.progress = nearestRow(robot, trajectory, values, by_clock, by_clock);
-    watched.progress.time = by_clock;
+    watched.time = by_clock;
+    if (is_measured)
+      watched.deviation = deviationAt(robot, trajectory, values, by_clock);
+    watched.has_ended = by_clock >= end;
   }
-  if (!is_measured)
-    watched.progress.deviation = std::numeric_limits<double>::quiet_NaN();
   watched.looked_at = now;
-}
-
-bool hasEnded(const Watched& watched)
-{
-  const double end = watched.trajectory.rows.seconds.back();
-  const bool is_over = (watched.looked_at - watched.start).toSec() >= end;
-  return watched.progress.time >= (watched.follows && is_over ? end - kArrived : end);
 }
 }  // namespace gpu_planning_scene::core

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,19 +19,23 @@ struct Watched
   std::string id;
   WatchedTrajectory trajectory;  ///< its times are seconds from `start`
   ros::Time start;
-  bool follows = false;        ///< progress comes from measured values, not from the clock
+  bool follows = false;        ///< the robot's place comes from measured values, not from the clock
   double max_deviation = 0.0;  ///< radians or metres; 0: no limit
   ros::Publisher cancel;       ///< of actionlib_msgs/GoalID; invalid: nothing is cancelled
-  Progress progress = {};      ///< where the robot is; `deviation` is NaN if the values are not measured
-  ros::Time looked_at;         ///< when `progress` was found
+  ros::Time blocked_since;     ///< of the goals that are cancelled; 0: the verdict was FREE at the last check
+  double time = 0.0;           ///< seconds: the robot's place on the trajectory
+  /// Of the robot from its place; NaN: its values are not measured.
+  double deviation = std::numeric_limits<double>::quiet_NaN();
+  double age = 0.0;  ///< seconds: of the values from which the place comes; 0: it comes from the clock
+  bool has_ended = false;
+  ros::Time looked_at;  ///< when the place was found
 };
 
-/// Reads a request. `now`: the ROS clock. The publisher is not set. Throws Error for a wrong request.
-Watched watchedOf(const WatchTrajectory::Request& request, const Snapshot& scene, const ros::Time& now);
+/// Reads a request. `now`: the ROS clock. The publisher is not set. `warnings` gets warnings about the trajectory.
+/// Throws Error for a wrong request.
+Watched watchedOf(const WatchTrajectory::Request& request, const Snapshot& scene, const ros::Time& now,
+                  std::string& warnings);
 
-/// Finds where the robot is. Throws Error if the trajectory follows measured values and there are none.
-void findProgress(const Snapshot& scene, const ros::Time& now, Watched& watched);
-
-/// Whether the robot has reached the end of the trajectory.
-bool hasEnded(const Watched& watched);
+/// Finds the robot's place. Throws Error if it needs measured values and there are none.
+void findPlace(const Snapshot& scene, const ros::Time& now, Watched& watched);
 }  // namespace gpu_planning_scene::core

@@ -42,6 +42,29 @@ std::vector<bool> wrappingVariables(const RobotModel& robot)
   return wraps;
 }
 
+/// The differences of two rows of a trajectory, in the shorter direction where a whole turn changes nothing.
+class Differences
+{
+ public:
+  Differences(const RobotModel& robot, const WatchedTrajectory& trajectory)
+  {
+    const std::vector<bool> wraps = wrappingVariables(robot);
+    for (const int column : trajectory.columns)
+      wraps_.push_back(wraps[static_cast<std::size_t>(column)]);
+  }
+
+  std::vector<double> operator()(const std::vector<double>& from, const std::vector<double>& to) const
+  {
+    std::vector<double> found(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i)
+      found[i] = wraps_[i] ? shortestAngularDistance(from[i], to[i]) : to[i] - from[i];
+    return found;
+  }
+
+ private:
+  std::vector<bool> wraps_;  // one per variable of the trajectory
+};
+
 double product(const std::vector<double>& a, const std::vector<double>& b)
 {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
@@ -101,43 +124,37 @@ std::vector<double> rowAt(const RobotModel& robot, const WatchedTrajectory& traj
   return row;
 }
 
-Progress nearestRow(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
-                    double earliest, double latest)
+double deviationAt(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
+                   double time)
 {
-  const std::vector<bool> wraps = wrappingVariables(robot);
-  const auto difference = [&](const std::vector<double>& from, const std::vector<double>& to)
-  {
-    std::vector<double> found(from.size());
-    for (std::size_t i = 0; i < from.size(); ++i)
-      found[i] = wraps[static_cast<std::size_t>(trajectory.columns[i])] ? shortestAngularDistance(from[i], to[i])
-                                                                        : to[i] - from[i];
-    return found;
-  };
-  std::vector<double> times = {earliest};
-  for (const double time : trajectory.rows.seconds)
-    if (time > earliest && time < latest)
-      times.push_back(time);
-  times.push_back(std::max(earliest, latest));
+  double largest = 0.0;
+  for (const double each : Differences(robot, trajectory)(rowAt(robot, trajectory, time), values))
+    largest = std::max(largest, std::abs(each));
+  return largest;
+}
 
-  Progress nearest;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t part = 0; part + 1 < times.size(); ++part)
+Progress progressFrom(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
+                      double from)
+{
+  const Differences difference(robot, trajectory);
+  const std::vector<double>& seconds = trajectory.rows.seconds;
+  double time = std::max(from, seconds.front());
+  std::vector<double> row = rowAt(robot, trajectory, time);
+  for (auto next = std::upper_bound(seconds.begin(), seconds.end(), time); next != seconds.end(); ++next)
   {
-    const std::vector<double> from = rowAt(robot, trajectory, times[part]);
-    const std::vector<double> along = difference(from, rowAt(robot, trajectory, times[part + 1]));
-    const std::vector<double> away = difference(from, values);
+    const std::vector<double> end = rowAt(robot, trajectory, *next);
+    const std::vector<double> along = difference(row, end);
     const double squared = product(along, along);
-    const double fraction = squared > 0.0 ? std::clamp(product(away, along) / squared, 0.0, 1.0) : 0.0;
-    const double distance = product(away, away) - 2.0 * fraction * product(away, along) + fraction * fraction * squared;
-    if (distance >= least)
-      continue;
-    least = distance;
-    nearest.time = times[part] + fraction * (times[part + 1] - times[part]);
-    nearest.deviation = 0.0;
-    for (std::size_t i = 0; i < away.size(); ++i)
-      nearest.deviation = std::max(nearest.deviation, std::abs(away[i] - fraction * along[i]));
+    const double share = squared > 0.0 ? product(difference(row, values), along) / squared : 1.0;
+    if (share < 1.0)
+    {
+      time += std::max(share, 0.0) * (*next - time);
+      break;
+    }
+    time = *next;
+    row = end;
   }
-  return nearest;
+  return {time, deviationAt(robot, trajectory, values, time)};
 }
 
 TimedRows motionOfAll(const RobotModel& robot, const std::vector<const WatchedTrajectory*>& trajectories,
@@ -170,8 +187,15 @@ TimedRows motionOfAll(const RobotModel& robot, const std::vector<const WatchedTr
   return motion;
 }
 
-MotionOutlook outlookOf(const MotionChecker& checker, const RobotModel& robot, const TimedRows& motion)
+MotionOutlook outlookOf(const MotionChecker& checker, const RobotModel& robot, const TimedRows& motion,
+                        const std::function<bool()>& stop)
 {
+  bool has_stopped = false;
+  const std::function<bool()> is_over = [&]
+  {
+    has_stopped = has_stopped || (stop && stop());
+    return has_stopped;
+  };
   const std::size_t width = robot.variables().size();
   const double* rows = motion.values.data();
   // A robot that stands is a motion too.
@@ -180,7 +204,9 @@ MotionOutlook outlookOf(const MotionChecker& checker, const RobotModel& robot, c
   const auto isValid = [](const MotionVerdict& verdict) { return verdict.valid; };
 
   MotionOutlook outlook;
-  const std::vector<MotionVerdict> verdicts = checker.check(rows, ends, parts);
+  const std::vector<MotionVerdict> verdicts = checker.check(rows, ends, parts, MotionQuery::Valid, is_over);
+  if (has_stopped)
+    throw Cancelled();
   const auto bad = std::find_if_not(verdicts.begin(), verdicts.end(), isValid);
   if (bad == verdicts.end())
   {
@@ -191,7 +217,9 @@ MotionOutlook outlookOf(const MotionChecker& checker, const RobotModel& robot, c
   const auto part = static_cast<std::size_t>(bad - verdicts.begin());
   const double* const start = rows + part * width;
   const double* const end = ends + part * width;
-  const MotionVerdict verdict = checker.check(start, end, 1, MotionQuery::LastValid).front();
+  const MotionVerdict verdict = checker.check(start, end, 1, MotionQuery::LastValid, is_over).front();
+  if (has_stopped)
+    throw Cancelled();
   const double begin = motion.seconds[part];
   const double lasts = motion.seconds.size() > 1 ? motion.seconds[part + 1] - begin : 0.0;
   outlook.free_until = begin + verdict.last_valid * lasts;

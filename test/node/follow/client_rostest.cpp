@@ -1,4 +1,4 @@
-// What a client of several nodes does with each kind of answer. The nodes are fakes in this program.
+// A client of several nodes gets each kind of answer. The nodes are fakes in this program.
 
 #include <limits>
 

@@ -29,8 +29,12 @@ class SimulatedRobot
     : names_(std::move(names)),
       start_(std::move(start)),
       states_(node_.advertise<sensor_msgs::JointState>("/joint_states", 100)),
-      cancel_(node_.subscribe<actionlib_msgs::GoalID>(
-          "/simulation/cancel", 10, [this](const actionlib_msgs::GoalIDConstPtr&) { brakes_ = true; }))
+      cancel_(node_.subscribe<actionlib_msgs::GoalID>("/simulation/cancel", 10,
+                                                      [this](const actionlib_msgs::GoalIDConstPtr& goals)
+                                                      {
+                                                        cancelled_until_ = goals->stamp.toSec();
+                                                        brakes_ = true;
+                                                      }))
   {
     thread_ = std::thread([this] { run(); });
   }
@@ -43,6 +47,8 @@ class SimulatedRobot
   void go() { moves_ = true; }
   bool stands() const { return stands_; }
   bool brakes() const { return brakes_; }
+  /// Goals that were sent until then are cancelled.
+  double cancelledUntil() const { return cancelled_until_; }
   /// Is added to the published values.
   std::atomic<double> error{0.0};
 
@@ -83,6 +89,7 @@ class SimulatedRobot
   ros::Subscriber cancel_;
   std::atomic<bool> moves_{false};
   std::atomic<bool> brakes_{false};
+  std::atomic<double> cancelled_until_{0.0};  // seconds
   std::atomic<bool> stands_{false};
   std::atomic<bool> ended_{false};
   std::atomic<double> time_{0.0};
@@ -196,6 +203,7 @@ TEST_F(Watch, TheRobotStopsBeforeABoxThatMovesIntoItsWay)
   EXPECT_FALSE(simulated.brakes());
   EXPECT_EQ(last().verdict, WatchState::FREE) << last().message;
 
+  const double before = ros::Time::now().toSec();
   const std::uint64_t revision = apply(diffWith(boxAtTip(simulated.stateAt(4.5))));
   ASSERT_TRUE(comes(WatchState::COLLISION)) << last().message;
   const double told_at = simulated.time();
@@ -208,6 +216,8 @@ TEST_F(Watch, TheRobotStopsBeforeABoxThatMovesIntoItsWay)
   ASSERT_TRUE(becomes([&] { return !last().contacts.empty(); }));
   EXPECT_EQ(last().contacts[0].contact_body_2, "box");
   EXPECT_GT(last().collision_in, 0.5) << "the robot stands, so the rest is still to come";
+  EXPECT_GE(simulated.cancelledUntil(), before);
+  EXPECT_LT(simulated.cancelledUntil(), before + 1.0) << "a goal that is sent now is not cancelled";
   for (double time = 0.0; time <= simulated.time(); time += 0.01)
     ASSERT_EQ(check(simulated.stateAt(time)).valid.at(0), 1) << time;
   EXPECT_EQ(check(simulated.stateAt(4.5)).valid.at(0), 0) << "it would have hit the box";
@@ -242,6 +252,48 @@ TEST_F(Watch, AChangeIsAnsweredAtOnceHoweverLowTheRateIs)
   change.request.scene = diffWith(boxAtTip(turned(4.5)));
   const std::uint64_t revision = ask("apply_planning_scene", change).scene_revision;
   EXPECT_TRUE(becomes([&] { return collides_in == revision; }));
+}
+
+TEST_F(Watch, ANodeThatEndsSaysThatItWatchesNothing)
+{
+  const ChildNode ending("ending", {"_device:=cpu"});
+  std::atomic<bool> has_said{false};
+  const auto subscriber = ros::NodeHandle().subscribe<WatchState>(
+      ending.service("watch"), 100,
+      [&](const WatchState::ConstPtr& state)
+      { has_said = state->verdict == WatchState::UNKNOWN && state->message.find("the node ends") == 0; });
+  ASSERT_TRUE(becomes([&] { return subscriber.getNumPublishers() == 1; }));
+  WatchTrajectory watched;
+  watched.request = trajectory("turn");
+  ASSERT_TRUE(callPersistently(ending.service("watch_trajectory"), watched));
+  ASSERT_TRUE(watched.response.success) << watched.response.message;
+  EXPECT_EQ(watched.response.state.verdict, WatchState::UNKNOWN) << "the node does not know the other joints";
+  ending.interrupt();
+  EXPECT_TRUE(becomes([&] { return has_said.load(); }));
+}
+
+TEST_F(Watch, NothingIsCancelledUnlessTheNodeIsToldTo)
+{
+  SimulatedRobot simulated(names(), free_state);
+  apply(diffWith(boxAtTip(turned(4.5))));
+  ASSERT_EQ(watch(trajectory("turn")).state.verdict, WatchState::COLLISION);
+  ros::WallDuration(0.5).sleep();
+  EXPECT_FALSE(simulated.brakes());
+}
+
+TEST_F(Watch, TwoTrajectoriesAreOneMotionInTime)
+{
+  // The second joint lifts the arm at 3 s, so the box, which the first joint would reach at 4.5 s, is not hit.
+  apply(diffWith(boxAtTip(turned(4.5))));
+  WatchTrajectory::Request lift = trajectory("a");
+  lift.joint_trajectory.joint_names = {names()[1]};
+  for (std::size_t i = 0; i < lift.joint_trajectory.points.size(); ++i)
+    lift.joint_trajectory.points[i].positions = {free_state[1] - (i >= 3 ? 0.6 : 0.2 * static_cast<double>(i))};
+  ASSERT_EQ(watch(lift).state.verdict, WatchState::FREE) << last().message;
+  const WatchState both = watch(trajectory("turn")).state;
+  EXPECT_EQ(both.ids, (std::vector<std::string>{"a", "turn"}));
+  EXPECT_EQ(both.verdict, WatchState::FREE) << both.body_1 << " " << both.body_2;
+  EXPECT_EQ(stopWatching("a").state.verdict, WatchState::COLLISION);
 }
 
 TEST_F(Watch, ManyChangesDoNotStopTheChecksAtTheRate)
@@ -342,6 +394,13 @@ TEST_F(Watch, WrongRequestsAreRefusedAndNothingElseIsWatched)
   request = trajectory("a");
   request.follow_joint_states = true;
   refuses(request, "needs max_deviation");
+  request = trajectory("a");
+  request.cancel_action = "/no_such_action";
+  refuses(request, "nobody listens to /no_such_action/cancel");
+  request = trajectory("a");
+  request.joint_trajectory.header.stamp = ros::Time::now() + ros::Duration(20.0);
+  request.joint_trajectory.points.erase(request.joint_trajectory.points.begin());
+  refuses(request, "give a first point at 0 s");
   ASSERT_TRUE(watch(trajectory("a")).success);
   request = trajectory("b");
   request.follow_joint_states = true;

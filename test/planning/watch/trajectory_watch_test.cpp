@@ -1,5 +1,5 @@
-// What is still to come of trajectories is checked while the scene changes: no collision is missed, and none is
-// invented. Two trajectories are checked in time. The latest moment to brake is right.
+// The rest of trajectories is checked while the scene changes: no collision is missed, and none is invented. Two
+// trajectories are checked in time. The latest moment to brake is right.
 
 #include <algorithm>
 #include <cmath>
@@ -132,19 +132,23 @@ TEST_F(Crossing, ATrajectoryStandsBeforeItsStartAndAfterItsEnd)
 class Braking : public testing::Test
 {
  protected:
-  Braking()
+  Braking() : scene(wallBefore({})) {}
+
+  static std::shared_ptr<const PlanningScene> wallBefore(const RobotModelOptions& options)
   {
-    PlanningScene made(robotOf(
-        "<link name='base'/><link name='cart'><collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision>"
-        "</link>" +
-        jointXml("slide", "prismatic", "base", "cart",
-                 "<axis xyz='1 0 0'/><limit lower='-5' upper='5' effort='1' velocity='4'/>")));
+    PlanningScene made(RobotModel::fromXml(
+        "<robot name='test'><link name='base'/><link name='cart'><collision><geometry><box size='0.2 0.2 0.2'/>"
+        "</geometry></collision></link>" +
+            jointXml("slide", "prismatic", "base", "cart",
+                     "<axis xyz='1 0 0'/><limit lower='-5' upper='5' effort='1' velocity='4'/>") +
+            "</robot>",
+        "", options));
     WorldObject wall;
     wall.id = "wall";
     wall.pose = Eigen::Translation3d(1.2, 0.0, 0.0);
     wall.shapes = {{Box{{0.2, 1.0, 1.0}}}};
     made.objects = {wall};
-    scene = std::make_shared<const PlanningScene>(made);
+    return std::make_shared<const PlanningScene>(made);
   }
 
   MotionOutlook outlook(const TimedRows& motion) const { return outlookOf(checkerOf(scene), *scene->robot, motion); }
@@ -158,6 +162,16 @@ TEST_F(Braking, BeginsHalfTheBrakingTimeBeforeTheLastFreeState)
   const MotionOutlook found = outlook({{0.0, 2.0}, {0.0, 2.0}});
   expectUntil(found, 1.0);
   EXPECT_NEAR(found.brake_by, found.free_until - 0.5, 1e-12);
+}
+
+TEST_F(Braking, TakesTheLimitOfTheJoint)
+{
+  RobotModelOptions options;
+  options.joint_limits = {JointLimits{"slide"}};
+  options.joint_limits[0].max_acceleration = 2.0;
+  scene = wallBefore(options);
+  const MotionOutlook found = outlook({{0.0, 2.0}, {0.0, 2.0}});
+  EXPECT_NEAR(found.brake_by, found.free_until - 0.25, 1e-12);
 }
 
 TEST_F(Braking, CountsFasterPartsThatTheRobotStillPasses)
@@ -191,30 +205,57 @@ TEST_F(Braking, ARobotThatStandsIsCheckedToo)
   EXPECT_EQ(inside.free_until, 5.0);
 }
 
-TEST(NearestRow, IsFoundInTheWindowOnly)
+/// Of a trajectory of one cart.
+Progress progressOn(const TimedRows& rows, double value, double from)
 {
   const auto scene = crossing();
-  const RobotModel& robot = *scene->robot;
-  // Forth and back: each place is passed twice.
-  const WatchedTrajectory there_and_back = {{robot.variableIndex("east")}, {{0.0, 1.0, 2.0}, {0.0, 1.0, 0.0}}};
-  const auto progress = [&](double value, double earliest, double latest)
-  { return nearestRow(robot, there_and_back, {value}, earliest, latest); };
-  EXPECT_NEAR(progress(0.25, 0.0, 2.0).time, 0.25, 1e-12) << "the earlier of two equal places";
-  EXPECT_NEAR(progress(0.25, 0.5, 2.0).time, 1.75, 1e-12);
-  EXPECT_NEAR(progress(0.25, 0.5, 1.0).time, 0.5, 1e-12);
-  EXPECT_NEAR(progress(0.25, 0.5, 1.0).deviation, 0.25, 1e-12);
-  EXPECT_NEAR(progress(1.3, 0.0, 2.0).time, 1.0, 1e-12);
-  EXPECT_NEAR(progress(1.3, 0.0, 2.0).deviation, 0.3, 1e-12);
+  return progressFrom(*scene->robot, {{scene->robot->variableIndex("east")}, rows}, {value}, from);
 }
 
-TEST(NearestRow, AFullTurnOfAContinuousJointIsNoDeviation)
+void expectProgress(const Progress& found, double time, double deviation)
+{
+  EXPECT_NEAR(found.time, time, 1e-12);
+  EXPECT_NEAR(found.deviation, deviation, 1e-12);
+}
+
+TEST(ProgressFrom, NeverSkipsAPartOfATrajectoryThatTurnsBack)
+{
+  // Forth and back: each place is passed twice.
+  const TimedRows rows = {{0.0, 1.0, 2.0}, {0.0, 1.0, 0.0}};
+  expectProgress(progressOn(rows, 0.25, 0.0), 0.25, 0.0);
+  expectProgress(progressOn(rows, 0.25, 0.5), 0.5, 0.25);  // the robot does not go back
+  expectProgress(progressOn(rows, 1.3, 0.0), 1.0, 0.3);    // beside the turning point, and not after it
+  expectProgress(progressOn(rows, 0.4, 1.0), 1.6, 0.0);
+  expectProgress(progressOn(rows, -0.5, 1.0), 2.0, 0.5);
+}
+
+TEST(ProgressFrom, ARobotThatStandsAtTheStartOfALoopStaysThere)
+{
+  expectProgress(progressOn({{0.0, 1.0, 2.0, 3.0}, {0.0, 1.0, -1.0, 0.0}}, 1e-5, 0.0), 1e-5, 0.0);
+}
+
+TEST(ProgressFrom, APartWithoutMotionIsPassed)
+{
+  const TimedRows rows = {{0.0, 1.0, 5.0, 6.0}, {0.0, 1.0, 1.0, 2.0}};
+  expectProgress(progressOn(rows, 1.0, 0.5), 5.0, 0.0);
+  expectProgress(progressOn(rows, 1.5, 0.5), 5.5, 0.0);
+}
+
+TEST(ProgressFrom, AFullTurnOfAContinuousJointIsNoDeviation)
 {
   const auto robot = robotOf("<link name='base'/>" + boxLink("wheel") +
                              jointXml("turn", "continuous", "base", "wheel", "<axis xyz='0 0 1'/>"));
   const WatchedTrajectory turn = {{0}, {{0.0, 1.0}, {3.0, 3.5}}};
-  const Progress found = nearestRow(*robot, turn, {3.25 - 2.0 * M_PI}, 0.0, 1.0);
+  const Progress found = progressFrom(*robot, turn, {3.25 - 2.0 * M_PI}, 0.0);
   EXPECT_NEAR(found.time, 0.5, 1e-9);
   EXPECT_NEAR(found.deviation, 0.0, 1e-9);
+}
+
+TEST(OutlookOf, EndsWhenItIsTold)
+{
+  const auto scene = crossing();
+  const TimedRows motion = {{0.0, 1.0}, {-1.0, -1.0, 1.0, -1.0}};
+  EXPECT_THROW(outlookOf(checkerOf(scene), *scene->robot, motion, [] { return true; }), Cancelled);
 }
 
 TEST(ValidateTrajectory, NamesTheWrongRow)

@@ -1,0 +1,138 @@
+#include "node/watch/rest_checker.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "gpu_planning_scene/error.h"
+#include "model/full_states.h"
+#include "node/checks/requested_motions.h"
+#include "node/endpoints/respond.h"
+#include "node/messages/contact_messages.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+/// The variables of all trajectories.
+std::vector<int> columnsOf(const std::vector<Watched>& watched)
+{
+  std::vector<int> columns;
+  for (const Watched& each : watched)
+    columns.insert(columns.end(), each.trajectory.columns.begin(), each.trajectory.columns.end());
+  return columns;
+}
+
+/// The motion from now (0 s) on. Each trajectory continues from the robot's place on it.
+TimedRows restOf(const Snapshot& scene, const std::vector<Watched>& watched)
+{
+  const RobotModel& robot = *scene.scene->robot;
+  std::vector<const WatchedTrajectory*> trajectories;
+  std::vector<double> delays;
+  std::vector<double> values;
+  for (const Watched& each : watched)
+  {
+    trajectories.push_back(&each.trajectory);
+    delays.push_back(-each.time);
+    const std::vector<double> row = rowAt(robot, each.trajectory, each.time);
+    values.insert(values.end(), row.begin(), row.end());
+  }
+  const std::vector<double> state = fullStates(robot, columnsOf(watched), values.data(), 1, scene.partialState());
+  return motionOfAll(robot, trajectories, delays, state, 0.0);
+}
+
+/// A message why nothing is proven although nothing is known to collide.
+std::string whyUnproven(const RobotModel& robot, const TimedRows& motion)
+{
+  const std::string beyond =
+      beyondLimits(robot, motion.values.data(), motion.seconds.size(),
+                   [](std::size_t row) { return "row " + std::to_string(row) + " of the rest"; });
+  return beyond.empty() ? "bodies almost touch, or the proof needs too many checks" : beyond;
+}
+
+/// The places of the robot are older than the message, so all of its times come sooner.
+void age(double seconds, WatchState& state)
+{
+  state.free_for = std::max(state.free_for - seconds, 0.0);
+  state.collision_in = std::max(state.collision_in - seconds, 0.0);
+  state.brake_in -= seconds;
+}
+
+void markDeviation(const std::vector<Watched>& watched, WatchState& state)
+{
+  for (const Watched& each : watched)
+  {
+    if (!(each.max_deviation > 0.0) || each.deviation <= each.max_deviation)
+      continue;
+    if (state.verdict != WatchState::COLLISION)
+      state.verdict = WatchState::OFF_PATH;
+    state.message = "'" + each.id + "' is " + std::to_string(each.deviation) +
+                    " (radians or metres) beside its trajectory; at most " + std::to_string(each.max_deviation) +
+                    " are allowed";
+    state.free_for = 0.0;
+    state.brake_in = -std::numeric_limits<double>::infinity();
+  }
+}
+}  // namespace
+
+RestChecker::RestChecker(MakeChecker make_checker, InspectorOf inspector_of, const MotionCheckerOptions& options)
+  : make_checker_(std::move(make_checker)), inspector_of_(std::move(inspector_of)), options_(options)
+{
+}
+
+void RestChecker::takeScene(const std::shared_ptr<const PlanningScene>& scene)
+{
+  if (scene_ == scene)
+    return;
+  scene_.reset();
+  if (checker_)
+    checker_->setScene(scene);
+  else
+    checker_ = make_checker_(scene);
+  scene_ = scene;
+}
+
+void RestChecker::check(const Snapshot& scene, const std::vector<Watched>& watched, bool with_contact,
+                        const std::function<bool()>& is_over, WatchState& state)
+{
+  takeScene(scene.scene);
+  const RobotModel& robot = *scene.scene->robot;
+  const TimedRows rest = restOf(scene, watched);
+  const MotionOutlook outlook =
+      outlookOf(MotionChecker(checker_, scene.scene->robot, "", options_), robot, rest, is_over);
+  state.free_for = outlook.free_until;
+  state.collision_in = outlook.collision;
+  state.brake_in = outlook.brake_by;
+  if (outlook.free)
+    state.verdict = WatchState::FREE;
+  else if (outlook.colliding == kNoPair)
+  {
+    state.verdict = WatchState::NOT_PROVEN;
+    state.message = whyUnproven(robot, rest);
+  }
+  else
+  {
+    state.verdict = WatchState::COLLISION;
+    state.body_1 = scene.scene->bodyName(outlook.colliding[0]);
+    state.body_2 = scene.scene->bodyName(outlook.colliding[1]);
+    if (with_contact)
+      addContact(outlook, *scene.scene, state);
+  }
+  age(std::max_element(watched.begin(), watched.end(), [](const Watched& a, const Watched& b) { return a.age < b.age; })
+          ->age,
+      state);
+  markDeviation(watched, state);
+  addWarning(scene.assumedBase(columnsOf(watched)), state.message);
+}
+
+void RestChecker::addContact(const MotionOutlook& outlook, const PlanningScene& scene, WatchState& state) const
+{
+  state.message = errorOf(
+      [&]
+      {
+        for (const Contact& contact : inspector_of_(scene_)->contacts(outlook.state.data(), "", 256, 1))
+          if (contact.bodies == outlook.colliding)
+            state.contacts = {messageOf(contact, scene, 0)};
+      });
+}
+}  // namespace gpu_planning_scene::core
