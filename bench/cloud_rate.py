@@ -73,7 +73,10 @@ def main():
     rospy.init_node("cloud_rate")
     get = rospy.ServiceProxy(arguments.node + "/get_planning_scene", GetPlanningScene)
     get.wait_for_service(30)
-    frame = get().scene.robot_state.joint_state.header.frame_id
+    got = get()
+    if not got.success:
+        raise SystemExit(got.message)
+    frame = got.scene.robot_state.joint_state.header.frame_id
     robot = xml.fromstring(rospy.get_param("robot_description"))
     moving = ("revolute", "continuous", "prismatic")
     names = [joint.get("name") for joint in robot.findall("joint") if joint.get("type") in moving]

@@ -24,7 +24,7 @@ CheckStates::Request randomRequest()
 {
   gpu_planning_scene::GetPlanningScene scene;
   if (!ros::service::waitForService(std::string(kLeader) + "/check_states", ros::Duration(60.0)) ||
-      !ros::service::call(std::string(kLeader) + "/get_planning_scene", scene))
+      !ros::service::call(std::string(kLeader) + "/get_planning_scene", scene) || !scene.response.success)
     throw std::runtime_error("the leader does not answer");
   CheckStates::Request request;
   request.joint_names = scene.response.scene.robot_state.joint_state.name;

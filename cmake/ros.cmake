@@ -15,6 +15,7 @@ set(message_dependencies diagnostic_msgs geometry_msgs sensor_msgs shape_msgs st
 add_message_files(FILES
   AllowedCollisionEntry.msg
   AllowedCollisionMatrix.msg
+  AnswerStatus.msg
   AttachedCollisionObject.msg
   BoundingVolume.msg
   CollisionObject.msg
@@ -35,7 +36,6 @@ add_message_files(FILES
   PlanningSceneWorld.msg
   PositionConstraint.msg
   RobotState.msg
-  Status.msg
   WatchState.msg
   WorkspaceParameters.msg)
 add_service_files(FILES

@@ -59,7 +59,10 @@ def main():
 
     try:
         rospy.wait_for_service(arguments.node + "/apply_planning_scene", 5)
-        scene = rospy.ServiceProxy(arguments.node + "/get_planning_scene", GetPlanningScene)().scene
+        got = rospy.ServiceProxy(arguments.node + "/get_planning_scene", GetPlanningScene)()
+        if not got.success:
+            sys.exit("allow_collision.py: " + got.message)
+        scene = got.scene
         named = [body for body in arguments.bodies if body != "*"]
         require_known(scene, {item.link_name for item in scene.link_padding}, named)
         matrix = scene.allowed_collision_matrix

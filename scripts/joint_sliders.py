@@ -128,7 +128,10 @@ def start_values(node):
 
     rospy.wait_for_service(f"{node}/get_planning_scene")
     components = PlanningSceneComponents(components=PlanningSceneComponents.ROBOT_STATE)
-    state = rospy.ServiceProxy(f"{node}/get_planning_scene", GetPlanningScene)(components).scene.robot_state
+    answer = rospy.ServiceProxy(f"{node}/get_planning_scene", GetPlanningScene)(components)
+    if not answer.success:
+        raise rospy.ServiceException(answer.message)
+    state = answer.scene.robot_state
     values = dict(zip(state.joint_state.name, state.joint_state.position))
     for joint, pose in zip(state.multi_dof_joint_state.joint_names, state.multi_dof_joint_state.transforms):
         parts = {f"trans_{axis}": getattr(pose.translation, axis) for axis in "xyz"}

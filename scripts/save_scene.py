@@ -73,9 +73,12 @@ def main():
     service = arguments.node + "/get_planning_scene"
     try:
         rospy.wait_for_service(service, 5)
-        scene = rospy.ServiceProxy(service, GetPlanningScene)().scene
+        answer = rospy.ServiceProxy(service, GetPlanningScene)()
     except (rospy.ROSException, rospy.ServiceException) as error:
         sys.exit(f"save_scene.py: {service} does not answer: {error}")
+    if not answer.success:
+        sys.exit(f"save_scene.py: {answer.message}")
+    scene = answer.scene
     with open(arguments.file, "w", encoding="utf-8") as file:
         file.write(scene_text(scene))
     carried = [attached.object.id for attached in scene.robot_state.attached_collision_objects]

@@ -20,6 +20,14 @@ class Cancelled : public Error
   Cancelled() : Error("cancelled") {}
 };
 
+/// A value is not known now, but may be known later: a value of the robot's current state, or a transform of tf. The
+/// same call may then succeed.
+class NotKnownYet : public Error
+{
+ public:
+  using Error::Error;
+};
+
 /// The device or its context is lost, or it failed for a reason that is not the input. The object that threw this error
 /// is no longer usable: create a new one.
 class DeviceLost : public Error

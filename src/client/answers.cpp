@@ -6,23 +6,21 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-using gpu_planning_scene::Status;
+using gpu_planning_scene::AnswerStatus;
 
-/// The kinds of a failure. A fault of the node, and a status that this version does not know, count as a refusal: if
-/// all nodes answer so, the client does not try again and again.
-Outcome outcomeOfFailure(std::uint8_t status)
+/// The kinds of a failure. A fault of the node, too little memory, and a status that this version does not know count
+/// as a refusal: if all nodes answer so, the client does not try again and again.
+Outcome outcomeOfFailure(const CheckStates::Response& response, std::uint64_t revision)
 {
-  switch (status)
+  switch (response.status)
   {
-    case Status::BUSY:
+    case AnswerStatus::BUSY:
       return Outcome::Busy;
-    case Status::UNKNOWN_REVISION:
-      return Outcome::OtherScenes;
-    case Status::SHUTTING_DOWN:
-    case Status::UNAVAILABLE:
+    case AnswerStatus::UNKNOWN_REVISION:
+      return response.scene_revision > revision ? Outcome::Gone : Outcome::OtherScenes;
+    case AnswerStatus::SHUTTING_DOWN:
+    case AnswerStatus::UNAVAILABLE:
       return Outcome::Unable;
-    case Status::INVALID_REQUEST:
-    case Status::INTERNAL_ERROR:
     default:
       return Outcome::Refused;
   }
@@ -39,10 +37,10 @@ Answer failed(Outcome outcome, std::uint8_t status, const std::string& node, con
 
 Answer answerOf(const std::string& node, CheckStates::Response response, std::uint64_t revision)
 {
-  if (response.status == Status::OK)
+  if (response.success && response.status == AnswerStatus::OK)
   {
     if (revision != 0 && response.scene_revision != revision)
-      return failed(Outcome::OtherScenes, Status::UNKNOWN_REVISION, node,
+      return failed(Outcome::OtherScenes, AnswerStatus::UNKNOWN_REVISION, node,
                     "the node has answered for revision " + std::to_string(response.scene_revision) +
                         " of the scene instead of " + std::to_string(revision));
     Answer answer;
@@ -50,14 +48,14 @@ Answer answerOf(const std::string& node, CheckStates::Response response, std::ui
     answer.response = std::move(response);
     return answer;
   }
-  if (response.status == CheckStates::Response().status)
+  if (response.status == CheckStates::Response().status || response.status == AnswerStatus::OK)
     return noAnswerOf(node, "the node has sent an empty response");
-  return failed(outcomeOfFailure(response.status), response.status, node, response.message);
+  return failed(outcomeOfFailure(response, revision), response.status, node, response.message);
 }
 
 Answer noAnswerOf(const std::string& node, const std::string& reason)
 {
-  return failed(Outcome::Unable, Status::UNAVAILABLE, node, reason);
+  return failed(Outcome::Unable, AnswerStatus::UNAVAILABLE, node, reason);
 }
 
 CheckStates::Response responseOf(const Failure& failure)
@@ -72,11 +70,11 @@ CheckStates::Response responseOf(const Failure& failure)
 void Failures::add(Outcome outcome, const Failure& failure)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (outcome == Outcome::Refused)
+  if (outcome == Outcome::Refused || outcome == Outcome::Gone)
     refusal_ = failure;
   else
     are_passing_ = true;
-  lack_scene_ = lack_scene_ || outcome == Outcome::OtherScenes;
+  lack_scene_ = lack_scene_ || outcome == Outcome::OtherScenes || outcome == Outcome::Gone;
   last_ = failure;
 }
 }  // namespace gpu_planning_scene::core

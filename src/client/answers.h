@@ -5,25 +5,26 @@
 #include <optional>
 #include <string>
 
+#include <gpu_planning_scene/AnswerStatus.h>
 #include <gpu_planning_scene/CheckStates.h>
-#include <gpu_planning_scene/Status.h>
 
 namespace gpu_planning_scene::core
 {
-/// The meaning of a node's answer for the client. See Status.msg.
+/// The meaning of a node's answer for the client. See AnswerStatus.msg.
 enum class Outcome
 {
   Answered,
   Unable,       ///< the node cannot answer now
   Busy,         ///< it can answer soon
   OtherScenes,  ///< it does not have the revision
+  Gone,         ///< it does not keep the revision any more
   Refused       ///< it does not accept the request, or fails at it: other nodes are tried, but the call is not repeated
 };
 
 /// Why there is no answer.
 struct Failure
 {
-  std::uint8_t status = gpu_planning_scene::Status::UNAVAILABLE;
+  std::uint8_t status = gpu_planning_scene::AnswerStatus::UNAVAILABLE;
   std::string message;
 };
 

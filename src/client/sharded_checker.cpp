@@ -67,11 +67,13 @@ struct ShardedChecker::Impl
     for (const auto& node : nodes)
       try
       {
-        const gpu_planning_scene::PlanningScene scene =
-            node->call<gpu_planning_scene::GetPlanningScene>("get_planning_scene", request, is_cancelled).scene;
-        if (scene.scene_revision != 0)
-          return commonStateOf(scene);
-        failure = noAnswerOf(node->node(), "its scene has no revision").failure;
+        const auto answer =
+            node->call<gpu_planning_scene::GetPlanningScene>("get_planning_scene", request, is_cancelled);
+        if (answer.success && answer.scene.scene_revision != 0)
+          return commonStateOf(answer.scene);
+        failure = {
+            answer.success ? Failure().status : answer.status,
+            node->node() + ": its scene is missing: " + (answer.success ? "it has no revision" : answer.message)};
       }
       catch (const NoAnswer& fault)
       {
@@ -90,6 +92,8 @@ struct ShardedChecker::Impl
       try
       {
         const auto report = node->call<gpu_planning_scene::GetReport>("get_report", {}, is_cancelled);
+        if (!report.success)
+          continue;
         const auto name = std::find(report.names.begin(), report.names.end(), "variables");
         const auto index = static_cast<std::size_t>(name - report.names.begin());
         if (index < report.values.size())
@@ -153,7 +157,7 @@ class ShardedChecker::Call
         if (serveAll(failures))
           return joined(work_->takeAnswers());
         failure_ = failures.reported();
-        if (failures.areFinal())
+        if (failures.areFinal() && (request_.scene_revision != 0 || !failures.lackScene()))
           return responseOf(failure_);
         // The next round begins with the newest scene, unless the request names another one.
         if (failures.lackScene() && request_.scene_revision == 0)

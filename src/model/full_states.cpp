@@ -120,7 +120,7 @@ std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& 
     if (!given[i] && !current.known[i])
       missing.push_back(robot.variables()[i].name);
   if (!missing.empty())
-    throw Error(
+    throw NotKnownYet(
         "no value for " + nameList(missing) +
         "; give values for all joints (a named state takes no further values), or set the current state: with "
         "robot_state.joint_state in the scene file, or, for a node, with the topic joint_states or "

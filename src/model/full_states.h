@@ -37,7 +37,7 @@ int movedVariableBeyond(const RobotModel& robot, const std::vector<int>& variabl
                         const double* to);
 
 /// Completes `count` rows of values for the variables `columns`. The other variables come from `current`. Returns
-/// row-major full states. Throws Error if `current` does not know a needed variable.
+/// row-major full states. Throws NotKnownYet if `current` does not know a needed variable.
 std::vector<double> fullStates(const RobotModel& robot, const std::vector<int>& columns, const double* rows,
                                std::size_t count, const PartialState& current);
 }  // namespace gpu_planning_scene::core

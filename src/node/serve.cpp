@@ -178,7 +178,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   watch_requests.advertise<WatchTrajectory>("watch_trajectory",
                                             [&](const WatchTrajectory::Request& r) { return watcher.watch(r); });
 
-  // Each waiting request occupies a thread, and a thread must be free to answer "busy" immediately. Up to
+  // Each waiting request occupies a thread, and a thread must be free to answer with BUSY immediately. Up to
   // max_waiting_requests requests each can be in the two running batches of small requests, in their queue, in the
   // queue of large requests, in the queue for contacts, and waiting for a revision. check_states is advertised last:
   // when it is there, all other services are.

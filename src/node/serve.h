@@ -9,8 +9,8 @@
 namespace gpu_planning_scene::core
 {
 /// Serves a planning scene, as set by the node's parameters, until `stop` returns true or ROS shuts down. Then it
-/// answers running small requests, rejects all others with "shutting down", and returns. Throws Error if it cannot
-/// start.
+/// answers running small requests, rejects all others with the status SHUTTING_DOWN, and returns. Throws Error if it
+/// cannot start.
 void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_device,
            const std::function<bool()>& stop);
 }  // namespace gpu_planning_scene::core

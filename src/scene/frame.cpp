@@ -65,8 +65,8 @@ Eigen::Isometry3d linkPose(const RobotModel& robot, int link, const double* stat
 {
   const std::string& name = robot.links()[static_cast<std::size_t>(link)].name;
   if (state == nullptr)
-    throw Error("the robot's state is not known yet, so link '" + name +
-                "' has no pose; give the joints' values first");
+    throw NotKnownYet("the robot's state is not known yet, so link '" + name +
+                      "' has no pose; give the joints' values first");
   std::vector<Eigen::Isometry3d> poses(robot.links().size());
   robot.linkPoses(state, poses.data());
   if (!poses[static_cast<std::size_t>(link)].matrix().allFinite())

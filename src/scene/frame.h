@@ -12,7 +12,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// The pose of a link in the planning frame. Throws Error if `state` is null or not finite.
+/// The pose of a link in the planning frame. Throws NotKnownYet if `state` is null, and Error if it is not finite.
 Eigen::Isometry3d linkPose(const RobotModel& robot, int link, const double* state);
 
 /// The frame of an object, with its subframes.

@@ -35,8 +35,16 @@ CheckQueue::~CheckQueue()
 
 std::future<CheckAnswer> CheckQueue::submit(CheckJob job, std::size_t count)
 {
-  std::future<CheckAnswer> answer = requests_.submit(std::move(job), count);
+  startThreads();
+  return requests_.submit(std::move(job), count);
+}
+
+/// Called before a request is queued: if the first thread cannot start, no request waits for it.
+void CheckQueue::startThreads()
+{
   const std::lock_guard<std::mutex> lock(mutex_);
+  if (requests_.isStopping())
+    return;
   if (!thread_.joinable())
     thread_ = std::thread([this] { run(); });
   try
@@ -48,7 +56,6 @@ std::future<CheckAnswer> CheckQueue::submit(CheckJob job, std::size_t count)
   {
     // The other thread answers all requests.
   }
-  return answer;
 }
 
 void CheckQueue::refuse()

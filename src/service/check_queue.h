@@ -27,6 +27,7 @@ class CheckQueue
 
   /// Makes the checker before the first request arrives. Throws the errors of `make_checker`.
   void open() { worker_.open(); }
+  /// Throws Busy, ShuttingDown, and std::system_error if the thread cannot start.
   std::future<CheckAnswer> submit(CheckJob job, std::size_t count);
   /// Rejects queued and later requests, and ends the running one soon. Does not wait.
   void refuse();
@@ -35,6 +36,7 @@ class CheckQueue
   CheckStatistics statistics() const;
 
  private:
+  void startThreads();
   void run();
   void relieve();
   void count(const CheckStatistics& answered);

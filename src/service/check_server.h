@@ -99,7 +99,8 @@ class CheckServer
   void requireStateCount(std::size_t count) const;
 
   /// Throws Busy immediately if the queue is full; throws Error for too many states and for rows of the wrong length.
-  /// The future gets the checker's errors, and an Error if a variable is neither given nor known.
+  /// The future gets the checker's errors, NotKnownYet if a variable is neither given nor known, and InternalError if
+  /// the checker does not take the store's own scene, or no checker can be made.
   std::future<CheckAnswer> submit(CheckJob job);
 
   /// Unfinished requests, running motion checks, queued and later requests get ShuttingDown.

@@ -27,7 +27,7 @@ std::size_t widthOf(const Snapshot& now)
   return now.scene->robot->variables().size();
 }
 
-/// The job's states with all variables. Throws Error if a variable is neither given nor known.
+/// The job's states with all variables. Throws NotKnownYet if a variable is neither given nor known.
 std::vector<double> filled(const CheckJob& job, const Snapshot& now)
 {
   if (isFull(job, widthOf(now)))
@@ -172,23 +172,44 @@ Snapshot CheckWorker::takeScene(const CheckJob& job)
     other->matrix_source = MatrixSource::SceneFile;
     now.scene = std::move(other);
   }
-  if (now.scene == checked_)
-    return now;
+  if (now.scene != checked_)
+    giveScene(now.scene, !job.scene && !job.matrix);
+  return now;
+}
+
+/// `is_own`: whether the scene is the service's own, and not one that a request has changed. If the own scene cannot be
+/// checked either, or no device can be opened, this is not the fault of the request.
+void CheckWorker::giveScene(const std::shared_ptr<const PlanningScene>& scene, bool is_own)
+{
   try
   {
     if (checker_)
-      checker_->setScene(now.scene);
+      checker_->setScene(scene);
     else
-      checker_ = make_checker_(now.scene);
-    checked_ = now.scene;
+      checker_ = make_checker_(scene);
+    checked_ = scene;
   }
   catch (...)
   {
-    checker_.reset();
-    checked_.reset();
-    throw;
+    close();
+    if (!is_own && takesOwnScene())
+      throw;
+    asFaultOfService([] { throw; });
   }
-  return now;
+}
+
+/// Makes the checker anew, with the service's own scene. Returns whether this was possible.
+bool CheckWorker::takesOwnScene()
+{
+  try
+  {
+    giveScene(store_.snapshot().scene, true);
+    return true;
+  }
+  catch (...)
+  {
+    return false;
+  }
 }
 
 BatchResult CheckWorker::checkStates(const std::shared_ptr<const std::vector<double>>& states, std::size_t count,

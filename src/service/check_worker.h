@@ -46,6 +46,8 @@ class CheckWorker
  private:
   CheckAnswer check(CheckBatch& batch, std::size_t count);
   Snapshot takeScene(const CheckJob& job);
+  void giveScene(const std::shared_ptr<const PlanningScene>& scene, bool is_own);
+  bool takesOwnScene();
   BatchResult checkStates(const std::shared_ptr<const std::vector<double>>& states, std::size_t count,
                           const std::string& group);
   void checkMotions(const CheckJob& job, const std::shared_ptr<const std::vector<double>>& rows_of,

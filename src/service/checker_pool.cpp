@@ -2,9 +2,12 @@
 
 #include <utility>
 
+#include "service/service_errors.h"
+
 namespace gpu_planning_scene::core
 {
-CheckerPool::Lease::Lease(CheckerPool& pool, const std::shared_ptr<const PlanningScene>& scene) : pool_(pool)
+CheckerPool::Lease::Lease(CheckerPool& pool, const std::shared_ptr<const PlanningScene>& scene, bool is_own)
+  : pool_(pool)
 {
   {
     const std::lock_guard<std::mutex> lock(pool_.mutex_);
@@ -14,6 +17,14 @@ CheckerPool::Lease::Lease(CheckerPool& pool, const std::shared_ptr<const Plannin
       pool_.idle_.pop_back();
     }
   }
+  if (is_own)
+    asFaultOfService([&] { takeScene(scene); });
+  else
+    takeScene(scene);
+}
+
+void CheckerPool::Lease::takeScene(const std::shared_ptr<const PlanningScene>& scene)
+{
   if (checker_)
     checker_->setScene(scene);
   else

@@ -19,8 +19,9 @@ class CheckerPool
   {
    public:
     /// Takes a kept checker, or makes one. The checker has `scene`. Throws the errors of setScene and of the function
-    /// that makes checkers.
-    Lease(CheckerPool& pool, const std::shared_ptr<const PlanningScene>& scene);
+    /// that makes checkers. `is_own`: the scene is the service's own, so a checker that does not take it is an
+    /// InternalError.
+    Lease(CheckerPool& pool, const std::shared_ptr<const PlanningScene>& scene, bool is_own = false);
 
     /// Keeps the checker for the next user. Without this call it is dropped, because it may be the cause of an error.
     void giveBack();
@@ -28,6 +29,8 @@ class CheckerPool
     const std::shared_ptr<StateChecker>& checker() const { return checker_; }
 
    private:
+    void takeScene(const std::shared_ptr<const PlanningScene>& scene);
+
     CheckerPool& pool_;
     std::shared_ptr<StateChecker> checker_;
   };

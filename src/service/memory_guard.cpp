@@ -52,7 +52,7 @@ void MemoryGuard::require() const
   }
   const std::size_t used = residentMemory();
   if (used > max_)
-    throw Unavailable("out of memory: the process uses " + megabytes(used) + ", and the limit is " + megabytes(max_) +
-                      " (limits/memory); remove objects, or send the request later");
+    throw OutOfMemory("out of memory: the process uses " + megabytes(used) + ", and the limit is " + megabytes(max_) +
+                      " (limits/memory); send a smaller request, or remove objects");
 }
 }  // namespace gpu_planning_scene::core

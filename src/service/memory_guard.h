@@ -17,7 +17,7 @@ class MemoryGuard
  public:
   /// `max_bytes`: the bound; 0: 80 % of the machine's memory.
   explicit MemoryGuard(std::size_t max_bytes);
-  /// Throws Unavailable if the process uses more than the bound.
+  /// Throws OutOfMemory if the process uses more than the bound.
   void require() const;
 
  private:

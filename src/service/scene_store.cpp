@@ -22,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 // Earlier scenes are kept for requests that many nodes answer together. These bounds keep them below some 100 MB.
 constexpr std::size_t kReplacedScenes = 64;
 constexpr std::size_t kReplacedShapes = 200000;
+constexpr std::chrono::milliseconds kPollInterval{100};  // in which a wait for a revision looks for the end of the node
 
 std::size_t shapesOf(const PlanningScene& scene)
 {
@@ -287,12 +288,17 @@ void SceneStore::keep(const std::shared_ptr<const PlanningScene>& replaced)
   }
 }
 
-Snapshot SceneStore::at(std::uint64_t revision, Clock::time_point until) const
+Snapshot SceneStore::at(std::uint64_t revision, Clock::time_point until, const std::function<bool()>& stop) const
 {
   std::shared_ptr<const PlanningScene> scene;
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    arrived_.wait_until(lock, until, [&] { return scene_->revision >= revision; });
+    while (scene_->revision < revision && Clock::now() < until)
+    {
+      if (stop && stop())
+        throw ShuttingDown();
+      arrived_.wait_until(lock, std::min(until, Clock::now() + kPollInterval));
+    }
     if (scene_->revision == revision)
       scene = scene_;
     const auto replaced = std::find_if(replaced_.begin(), replaced_.end(),
@@ -306,8 +312,9 @@ Snapshot SceneStore::at(std::uint64_t revision, Clock::time_point until) const
     if (!scene)
       throw UnknownRevision(
           "revision " + std::to_string(revision) +
-          (revision > scene_->revision ? " of the scene has not arrived" : " of the scene is not kept") +
-          "; the newest is " + std::to_string(scene_->revision));
+              (revision > scene_->revision ? " of the scene has not arrived" : " of the scene is not kept") +
+              "; the newest is " + std::to_string(scene_->revision),
+          scene_->revision);
   }
   Snapshot then = snapshot();
   then.scene = std::move(scene);

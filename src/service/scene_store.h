@@ -101,8 +101,10 @@ class SceneStore
   void follow(const SceneChange& change, std::uint64_t revision);
 
   /// The scene of this revision, with the newest state of the robot. Waits until `until` for a revision that is above
-  /// the newest one. Throws UnknownRevision if the scene does not come, or is no longer kept.
-  Snapshot at(std::uint64_t revision, std::chrono::steady_clock::time_point until) const;
+  /// the newest one. Throws UnknownRevision if the scene does not come, or is no longer kept; ShuttingDown soon after
+  /// `stop` returns true during the wait.
+  Snapshot at(std::uint64_t revision, std::chrono::steady_clock::time_point until,
+              const std::function<bool()>& stop = {}) const;
   /// Drops the earlier scenes that were replaced and used last before `time`. At most 64 are kept, with at most 200,000
   /// shapes. Those that at() has returned lately are kept longest.
   void forgetReplaced(std::chrono::steady_clock::time_point time);

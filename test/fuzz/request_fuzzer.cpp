@@ -171,7 +171,17 @@ class Handlers
         {
           const typename Service::Response response = handler(request);
           requireOneLine(response.message, !response.success);
+          requireStatus(response.success, response.status);
         });
+  }
+
+  /// Ends the program unless the status is set and agrees with `success`.
+  static void requireStatus(bool success, std::uint8_t status)
+  {
+    if (status != 0 && success == (status == AnswerStatus::OK))
+      return;
+    std::fprintf(stderr, "an answer has the status %u, but success is %d\n", status, success);
+    std::abort();
   }
 
   /// Reads a message as roscpp and then the node's endpoints do.
@@ -203,7 +213,12 @@ class Handlers
     scenes_.follow(change, message.scene_revision);
   }
 
-  void get(const GetPlanningScene::Request& request) { requireReadable(scenes_.get(request).scene); }
+  void get(const GetPlanningScene::Request& request)
+  {
+    const GetPlanningScene::Response response = scenes_.get(request);
+    requireStatus(response.success, response.status);
+    requireReadable(response.scene);
+  }
 
   /// Ends the program unless a node can read a message that the node publishes or answers.
   void requireReadable(const PlanningSceneMessage& message) const

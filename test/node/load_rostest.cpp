@@ -100,7 +100,7 @@ TEST_F(Load, OverloadAnswersBusyAtOnce)
              else if (call.response.success)
                ++(call.response.valid.size() == 200000 ? right : other);
              else
-               ++(call.response.status == Status::BUSY ? busy : other);
+               ++(call.response.status == AnswerStatus::BUSY ? busy : other);
            });
   EXPECT_EQ(0, other) << "calls with neither an answer nor \"busy\"";
   EXPECT_GE(right, 1);
@@ -137,7 +137,7 @@ void expectAllAnswered(ChildNode& node, End end)
                    else if (call.response.success)
                      ++(call.response.valid.size() == 300000 ? right : other);
                    else
-                     ++(call.response.status == Status::SHUTTING_DOWN ? told : other);
+                     ++(call.response.status == AnswerStatus::SHUTTING_DOWN ? told : other);
                  });
   ending.join();
   EXPECT_EQ(0, other) << "requests that were taken and got no reply, or a wrong one";

@@ -130,14 +130,14 @@ std::uint64_t RunningNode::apply(const PlanningSceneMessage& change)
   return response.scene_revision;
 }
 
-void RunningNode::expectRefusal(const PlanningSceneMessage& change, const std::string& reason)
+void RunningNode::expectRefusal(const PlanningSceneMessage& change, const std::string& reason, std::uint8_t status)
 {
   const PlanningSceneMessage before = scene();
   ApplyPlanningScene::Request request;
   request.scene = change;
   const auto response = call<ApplyPlanningScene>("apply_planning_scene", request);
   EXPECT_FALSE(response.success);
-  EXPECT_EQ(Status::INVALID_REQUEST, response.status);
+  EXPECT_EQ(status, response.status);
   EXPECT_NE(std::string::npos, response.message.find(reason)) << "'" << response.message << "' does not say " << reason;
   EXPECT_EQ(std::string::npos, response.message.find('\n')) << response.message;
   EXPECT_EQ(before, scene());
@@ -147,7 +147,10 @@ PlanningSceneMessage RunningNode::scene(std::uint32_t components)
 {
   GetPlanningScene::Request request;
   request.components.components = components;
-  return call<GetPlanningScene>("get_planning_scene", request).scene;
+  const auto response = call<GetPlanningScene>("get_planning_scene", request);
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_EQ(AnswerStatus::OK, response.status);
+  return response.scene;
 }
 
 CheckStates::Request RunningNode::stateRequest(const std::vector<double>& states)

@@ -56,7 +56,8 @@ class RunningNode : public testing::Test
   /// Expects that the change is made, and returns the new revision.
   static std::uint64_t apply(const PlanningSceneMessage& change);
   /// Expects that the change is refused for this reason and leaves the scene unchanged.
-  static void expectRefusal(const PlanningSceneMessage& change, const std::string& reason);
+  static void expectRefusal(const PlanningSceneMessage& change, const std::string& reason,
+                            std::uint8_t status = AnswerStatus::INVALID_REQUEST);
   static PlanningSceneMessage scene(std::uint32_t components = 0);
   /// A request to check states whose rows have all variables.
   static CheckStates::Request stateRequest(const std::vector<double>& states);

@@ -64,10 +64,12 @@ class Node : public testing::Test
   }
 
   /// Expects that the node answers with a refusal.
-  static void expectRefusal(CheckStates call, const std::string& reason)
+  static void expectRefusal(CheckStates call, const std::string& reason,
+                            std::uint8_t status = AnswerStatus::INVALID_REQUEST)
   {
     ASSERT_TRUE(callPersistently(kService, call)) << "no answer, expected: " << reason;
     EXPECT_FALSE(call.response.success);
+    EXPECT_EQ(status, call.response.status);
     EXPECT_NE(std::string::npos, call.response.message.find(reason)) << call.response.message;
     EXPECT_TRUE(call.response.valid.empty());
   }
@@ -136,7 +138,7 @@ TEST_F(Node, RefusesWrongRequestsAndLivesOn)
   wrong = request(states);
   wrong.request.positions[0] = nan;
   expectRefusal(wrong, "not a finite number");
-  expectRefusal(CheckStates(), "no value for");
+  expectRefusal(CheckStates(), "no value for", AnswerStatus::UNAVAILABLE);
 
   CheckStates right = request(states);
   ASSERT_TRUE(callPersistently(kService, right));
@@ -150,7 +152,7 @@ TEST_F(Node, TakesVariablesThatARequestLeavesOutFromJointStates)
   partial.request.joint_names = {robot->variables()[0].name};
   partial.request.positions = {0.0};
   ASSERT_TRUE(scene->current_state.empty()) << "the test needs a scene without a robot_state";
-  expectRefusal(partial, "no value for");
+  expectRefusal(partial, "no value for", AnswerStatus::UNAVAILABLE);
 
   ros::NodeHandle node;
   ros::Publisher publisher = node.advertise<sensor_msgs::JointState>("/joint_states", 1, true);

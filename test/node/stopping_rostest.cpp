@@ -33,7 +33,7 @@ TEST_F(Stopping, WorksWithoutAClock)
   {
     ApplyPlanningScene change = boxInUnknownFrame();
     ASSERT_TRUE(callPersistently(node.service("apply_planning_scene"), change));
-    EXPECT_FALSE(change.response.success);
+    EXPECT_EQ(AnswerStatus::UNAVAILABLE, change.response.status);
     EXPECT_NE(std::string::npos, change.response.message.find("tf_timeout")) << change.response.message;
   }
   GetPlanningScene get;
@@ -60,7 +60,7 @@ TEST_F(Stopping, AFrameThatIsWaitedForHoldsUpNoEnd)
   EXPECT_TRUE(callPersistently(node.service("apply_planning_scene"), change)) << "no reply";
   ending.join();
   EXPECT_FALSE(change.response.success);
-  EXPECT_EQ(Status::SHUTTING_DOWN, change.response.status) << change.response.message;
+  EXPECT_EQ(AnswerStatus::SHUTTING_DOWN, change.response.status) << change.response.message;
   EXPECT_EQ(0, node.wait(20.0)) << "its exit code";
 }
 }  // namespace

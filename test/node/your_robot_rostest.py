@@ -78,7 +78,7 @@ class YourRobot(unittest.TestCase):
                 self.assertRegex(answer.stdout, r"^free\n\w+ collides with box\n")
                 self.assertEqual(self.client_answer.splitlines()[2:], answer.stdout.splitlines()[2:])
                 plan = self.run_block(self.plan)
-                self.assertRegex(plan, r"status: 0\n")
+                self.assertRegex(plan, r"status: 1\n")
                 self.assertGreater(plan.count("positions:"), 2, "the path goes around the post")
             finally:
                 node.send_signal(signal.SIGINT)

@@ -11,7 +11,7 @@ import unittest
 
 import genpy
 from fake_ros import FakeMaster, answering, receive, receive_block, shake_hands
-from gpu_planning_scene.msg import PlanningScene, Status
+from gpu_planning_scene.msg import AnswerStatus, PlanningScene
 from gpu_planning_scene.sharded_checker import ShardedChecker
 from gpu_planning_scene.srv import (CheckStatesRequest, CheckStatesResponse, GetPlanningSceneRequest,
                                     GetPlanningSceneResponse, GetReportRequest, GetReportResponse)
@@ -24,7 +24,7 @@ LARGE_PART = 1000000  # states of one joint: 8 MB, more than the buffers of the 
 
 
 def free(request):
-    return CheckStatesResponse(success=True, status=Status.OK, scene_revision=request.scene_revision,
+    return CheckStatesResponse(success=True, status=AnswerStatus.OK, scene_revision=request.scene_revision,
                                valid=bytes([1]) * len(request.positions))
 
 
@@ -76,9 +76,10 @@ class Client(unittest.TestCase):
     @classmethod
     def add_node(cls, name, serve):
         scene = PlanningScene(scene_revision=REVISION)
-        report = GetReportResponse(success=True, status=Status.OK, names=["variables"], values=[1.0])
+        report = GetReportResponse(success=True, status=AnswerStatus.OK, names=["variables"], values=[1.0])
         cls.master.add(f"{name}/get_planning_scene",
-                       answering(GetPlanningSceneRequest, lambda _: GetPlanningSceneResponse(scene)))
+                       answering(GetPlanningSceneRequest, lambda _: GetPlanningSceneResponse(
+                           success=True, status=AnswerStatus.OK, scene=scene)))
         cls.master.add(f"{name}/get_report", answering(GetReportRequest, lambda _: report))
         cls.master.add(f"{name}/check_states", serve)
 
@@ -89,7 +90,7 @@ class Client(unittest.TestCase):
 
     def test_a_request_and_its_answer_arrive_as_they_are(self):
         received = []
-        answer = CheckStatesResponse(success=True, status=Status.OK, message="näher", valid=b"\0\1", seconds=0.5,
+        answer = CheckStatesResponse(success=True, status=AnswerStatus.OK, message="näher", valid=b"\0\1", seconds=0.5,
                                      body_1=["a", ""], body_2=["b", ""], clearance_world=[0.0, float("inf")],
                                      clearance_self=[0.1, 0.2], scene_revision=5)
         self.add_node("/kept", answering(CheckStatesRequest, lambda request: received.append(request) or answer))
@@ -136,7 +137,7 @@ class Client(unittest.TestCase):
                                        "client wants service check_states to have md5sum 1, but it has 2.",
                              "/failing": "the service has failed: oops"}.items():
             answer = ShardedChecker([node], timeout=TIMEOUT, patience=0.0)(joint_names=["joint"], positions=[0.0])
-            self.assertEqual((False, Status.UNAVAILABLE), (answer.success, answer.status))
+            self.assertEqual((False, AnswerStatus.UNAVAILABLE), (answer.success, answer.status))
             self.assertEqual(f"no node can answer; the last reason: {node}: {reason}", answer.message)
 
     def test_another_node_takes_the_large_part_of_a_node_that_hangs_or_is_killed(self):

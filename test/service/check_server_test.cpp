@@ -1,9 +1,13 @@
 // Checks for many clients at once: which requests are merged, queued or rejected, and to which scene an answer belongs.
 
 #include <atomic>
+#include <exception>
+#include <system_error>
 #include <thread>
+#include <typeinfo>
 
 #include <gtest/gtest.h>
+#include <pthread.h>
 
 #include "scene/slider_robot.h"
 #include "service/check_server.h"
@@ -57,6 +61,19 @@ std::string errorOf(std::future<CheckAnswer>& answer)
     return error.what();
   }
   return "";
+}
+
+const std::type_info& typeOfError(std::future<CheckAnswer>& answer)
+{
+  try
+  {
+    answer.get();
+  }
+  catch (const std::exception& error)
+  {
+    return typeid(error);
+  }
+  return typeid(void);
 }
 
 MakeChecker checkersAt(Gate& gate)
@@ -340,6 +357,84 @@ TEST_F(Server, ACheckerThatRefusesASceneIsDropped)
   rename("good");
   EXPECT_EQ(2u, server.submit(job(1)).get().result.revision);
   EXPECT_EQ(2u, gate.checkers());
+}
+
+/// The scene named "unusable", as a request that changes the scene would bring it.
+CheckJob jobInUnusableScene(const SceneStore& store)
+{
+  CheckJob unusable = job(1);
+  unusable.scene = store.snapshot();
+  auto scene = std::make_shared<PlanningScene>(*unusable.scene->scene);
+  scene->name = "unusable";
+  unusable.scene->scene = std::move(scene);
+  return unusable;
+}
+
+TEST_F(Server, ASceneThatCannotBeCheckedIsTheFaultOfWhoHasMadeIt)
+{
+  server.submit(job(2 * kSmall)).get();  // from now on, each queue has a checker
+  const std::size_t checkers = gate.checkers();
+  std::future<CheckAnswer> of_request = server.submit(jobInUnusableScene(store));
+  EXPECT_EQ(typeid(Error), typeOfError(of_request));
+  EXPECT_EQ(1u, server.submit(job(2 * kSmall)).get().result.valid.size() / (2 * kSmall));
+  EXPECT_EQ(checkers + 1, gate.checkers()) << "the checker that refused the scene was dropped";
+  rename("unusable");
+  std::future<CheckAnswer> of_service = server.submit(job(1));
+  EXPECT_EQ(typeid(InternalError), typeOfError(of_service));
+  of_service = server.submit(job(1));
+  EXPECT_EQ(typeid(InternalError), typeOfError(of_service)) << "without a checker";
+  CheckJob with_matrix = job(1);
+  with_matrix.matrix = std::make_shared<AllowedCollisionMatrix>();
+  of_service = server.submit(std::move(with_matrix));
+  EXPECT_EQ(typeid(InternalError), typeOfError(of_service)) << "the matrix of the request is not the cause";
+}
+
+TEST_F(Server, ADeviceThatCannotBeOpenedAgainIsNotTheFaultOfARequest)
+{
+  bool is_lost = false;
+  const MakeChecker make = [&](std::shared_ptr<const PlanningScene> scene) -> std::shared_ptr<StateChecker>
+  {
+    if (is_lost)
+      throw Error("no usable EGL device");
+    return std::make_shared<GatedChecker>(std::move(scene), gate);
+  };
+  CheckServer losing(store, make, options());
+  is_lost = true;
+  std::future<CheckAnswer> large = losing.submit(job(2 * kSmall));
+  EXPECT_EQ(typeid(InternalError), typeOfError(large));
+  CheckJob changed = job(1);
+  changed.scene = store.snapshot();
+  changed.scene->scene = std::make_shared<PlanningScene>(*changed.scene->scene);
+  std::future<CheckAnswer> of_request = losing.submit(std::move(changed));
+  EXPECT_EQ(typeid(InternalError), typeOfError(of_request));
+}
+
+/// While it exists, the process cannot start threads: their stacks would be larger than the address space.
+class NoFurtherThread
+{
+ public:
+  NoFurtherThread()
+  {
+    pthread_getattr_default_np(&before_);
+    pthread_attr_t huge;
+    pthread_getattr_default_np(&huge);
+    pthread_attr_setstacksize(&huge, std::size_t{1} << 47);
+    pthread_setattr_default_np(&huge);
+  }
+  ~NoFurtherThread() { pthread_setattr_default_np(&before_); }
+
+ private:
+  pthread_attr_t before_;
+};
+
+TEST_F(Server, ARequestForWhichNoThreadStartsIsNotQueued)
+{
+  {
+    const NoFurtherThread limit;
+    EXPECT_THROW(server.submit(job(1)), std::system_error);
+  }
+  EXPECT_EQ(0u, server.statistics().waiting_requests);
+  EXPECT_EQ(1u, server.submit(job(1)).get().result.valid.size());
 }
 
 TEST_F(Server, AReportComesWithTheSceneThatItIsOf)

@@ -37,9 +37,9 @@ std::size_t Gate::checkers() const
   return checkers_;
 }
 
-GatedChecker::GatedChecker(std::shared_ptr<const PlanningScene> scene, Gate& gate)
-  : gate_(gate), scene_(std::move(scene))
+GatedChecker::GatedChecker(std::shared_ptr<const PlanningScene> scene, Gate& gate) : gate_(gate)
 {
+  setScene(std::move(scene));
   const std::lock_guard<std::mutex> lock(gate_.mutex_);
   ++gate_.checkers_;
 }

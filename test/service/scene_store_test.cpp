@@ -110,6 +110,29 @@ TEST_F(Store, WaitsForARevisionThatIsOnItsWay)
   leader.join();
 }
 
+TEST_F(Store, NamesItsNewestRevisionIfItLacksTheRequestedOne)
+{
+  store.follow(boxIn(""), 30);
+  for (const std::uint64_t missing : {20, 40})
+    try
+    {
+      store.at(missing, std::chrono::steady_clock::now());
+      ADD_FAILURE() << missing;
+    }
+    catch (const UnknownRevision& error)
+    {
+      EXPECT_EQ(30u, error.newest());
+    }
+}
+
+TEST_F(Store, EndsTheWaitForARevisionWhenItIsStopped)
+{
+  const auto begin = std::chrono::steady_clock::now();
+  const auto stop = [begin] { return std::chrono::steady_clock::now() - begin > std::chrono::milliseconds(50); };
+  EXPECT_THROW(store.at(30, begin + std::chrono::seconds(30), stop), ShuttingDown);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(20));
+}
+
 TEST_F(Store, OnlyVariablesOfUpdatesAreMeasuredAndOnlyForASecond)
 {
   SceneChange change;

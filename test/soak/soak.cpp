@@ -62,7 +62,7 @@ class Soak : public RunningNode
         continue;
       if (!check.response.success)
       {
-        ++(check.response.status == gpu_planning_scene::Status::BUSY ? busy : failed);
+        ++(check.response.status == gpu_planning_scene::AnswerStatus::BUSY ? busy : failed);
         continue;
       }
       latencies.add(std::chrono::duration<double>(Clock::now() - start).count());

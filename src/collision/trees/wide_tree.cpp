@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include "collision/trees/cpu_tree.h"
-#include "gpu_planning_scene/error.h"
 
 // A wide node begins with the two children of a binary node. Its largest inner box is replaced by the two children of
 // that box until the node has eight boxes (H. Dammertz, J. Hanika, A. Keller: Shallow bounding volume hierarchies for
@@ -62,8 +63,8 @@ TriangleBlock blockOf(const CpuNode& leaf, const std::vector<Triangle>& triangle
 {
   static_assert(kLeafTriangles <= kBlockTriangles, "one block for each leaf");
   if (leaf.count < 1 || leaf.count > kBlockTriangles)
-    throw Error("a leaf of a tree has " + std::to_string(leaf.count) + " triangles, not 1 to " +
-                std::to_string(kBlockTriangles));
+    throw std::logic_error("a leaf of a tree has " + std::to_string(leaf.count) + " triangles, not 1 to " +
+                           std::to_string(kBlockTriangles));
   TriangleBlock block;
   block.first = leaf.first;
   block.count = leaf.count;

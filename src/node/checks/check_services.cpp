@@ -42,7 +42,8 @@ std::optional<Snapshot> CheckServices::wantedScene(std::uint64_t revision)
   std::optional<Admission::Pass> pass;
   if (revision > store_.snapshot().scene->revision)
     pass.emplace(revision_waits_);
-  return store_.at(revision, std::chrono::steady_clock::now() + options_.revision_wait);
+  return store_.at(revision, std::chrono::steady_clock::now() + options_.revision_wait,
+                   [this] { return stopping_.load(); });
 }
 
 /// Waits for the answer. After the start of the shutdown, the wait is bounded, because the checker may hang.

@@ -46,8 +46,8 @@ class CheckServices
   /// An inspector of this scene. The inspector of the newest scene is kept. Throws Error as StateInspector does.
   std::shared_ptr<const StateInspector> inspectorOf(const std::shared_ptr<const PlanningScene>& scene);
 
-  /// Stops the computation of contacts and clearance. Running and queued requests for them get the error "shutting
-  /// down". Other requests get this error if they wait for a checker for some seconds more.
+  /// Stops the computation of contacts and clearance, and the waits for revisions. These requests, running and queued,
+  /// get the status SHUTTING_DOWN. Other requests get this status if they wait for a checker for some seconds more.
   void stop();
 
  private:

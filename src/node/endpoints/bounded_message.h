@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -16,6 +17,8 @@
 #include <ros/service_traits.h>
 #include <boost/array.hpp>
 #include <boost/make_shared.hpp>
+
+#include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core
 {
@@ -94,13 +97,22 @@ void readBounded(const std::uint8_t* data, std::uint32_t size, M& message)
     throw std::runtime_error("the message has bytes after its last field");
 }
 
-/// Takes the place of M in services and topics, with the traits of M. `fault`: the reason why the message could not be
-/// read; empty if it was read.
+/// Takes the place of M in services and topics, with the traits of M.
 template <class M>
 struct Bounded
 {
   M message;
-  std::string fault;
+  std::string fault;              ///< the reason why the message could not be read; empty if it was read
+  bool is_out_of_memory = false;  ///< whether the reason is the memory of the node, and not the message
+
+  /// If the message could not be read: throws std::bad_alloc if memory is the reason, and Error otherwise.
+  void requireRead() const
+  {
+    if (is_out_of_memory)
+      throw std::bad_alloc();
+    if (!fault.empty())
+      throw Error(fault);
+  }
 };
 
 /// Options for a service whose handler gets the request with its fault.
@@ -176,11 +188,19 @@ struct Serializer<gpu_planning_scene::core::Bounded<M>>
     {
       gpu_planning_scene::core::readBounded(stream.getData(), size, bounded.message);
       bounded.fault.clear();
+      bounded.is_out_of_memory = false;
+    }
+    catch (const std::bad_alloc&)
+    {
+      bounded.message = M();
+      bounded.fault = "out of memory";
+      bounded.is_out_of_memory = true;
     }
     catch (const std::exception& error)
     {
       bounded.message = M();
       bounded.fault = error.what();
+      bounded.is_out_of_memory = false;
     }
     stream.advance(size);
   }

@@ -56,8 +56,7 @@ class Endpoints
       const Fault fault = faultOf(
           [&]
           {
-            if (!request.fault.empty())
-              throw Error(request.fault);
+            request.requireRead();
             if (closed_)
               throw ShuttingDown();
             requirePrecondition();
@@ -82,8 +81,7 @@ class Endpoints
                                                 {
                                                   try
                                                   {
-                                                    if (!message.fault.empty())
-                                                      throw Error(message.fault);
+                                                    message.requireRead();
                                                     if (closed_)
                                                       throw ShuttingDown("the node is shutting down");
                                                     requirePrecondition();
@@ -93,9 +91,9 @@ class Endpoints
                                                   {
                                                     reportLost(topic, error.what());
                                                   }
-                                                  catch (const std::exception& error)
+                                                  catch (...)
                                                   {
-                                                    refuse(topic, error.what());
+                                                    refuse(topic, currentFault().message);
                                                   }
                                                 }));
   }
@@ -106,7 +104,7 @@ class Endpoints
   /// Counts and logs a rejected message.
   void refuse(const std::string& topic, const std::string& why);
 
-  /// From now on, requests and messages get the error that the node is shutting down.
+  /// From now on, requests get the status SHUTTING_DOWN, and messages are rejected.
   void close();
   /// Calls close(), waits for running callbacks, and rejects the requests and messages that wait.
   void stop();
@@ -121,7 +119,8 @@ class Endpoints
       precondition_();
   }
 
-  /// Reports a fault in the response. Returns false if the service call fails.
+  /// Reports a fault in the response. Returns false if the service call fails. An answer whose `success` and `status`
+  /// contradict each other is a fault: clients decide by either of them.
   template <class Response>
   bool close(const std::string& name, const Fault& fault, Response& response)
   {
@@ -129,6 +128,9 @@ class Endpoints
     {
       if (fault)
         response = failed<Response>(fault);
+      else if (response.status == 0 || (response.success != 0) != (response.status == AnswerStatus::OK))
+        response = failed<Response>({AnswerStatus::INTERNAL_ERROR, "the status " + std::to_string(response.status) +
+                                                                       " of the answer contradicts its success"});
       if (!response.success)
         diagnostics_.refused(response.message);
       return true;

@@ -44,6 +44,8 @@ GetPlanningScene::Request LeaderScene::request()
 /// A difference may still be on its way at the time of a comparison, but not at the next one.
 void LeaderScene::take(const GetPlanningScene::Response& answer)
 {
+  if (!answer.success)
+    throw Error(options().service + " answers: " + answer.message);
   if (!isCurrent())
   {
     takeWhole(answer.scene);

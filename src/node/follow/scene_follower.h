@@ -195,10 +195,9 @@ class SceneFollower
       const std::string error = errorOf(
           [&]
           {
-            if (const Message& message = *event.getConstMessage(); message.fault.empty())
-              apply(message.message);
-            else
-              throw Error(message.fault);
+            const Message& message = *event.getConstMessage();
+            message.requireRead();
+            apply(message.message);
           });
       if (error.empty())
         continue;

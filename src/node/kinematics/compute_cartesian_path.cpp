@@ -86,7 +86,7 @@ ComputeCartesianPath::Response KinematicsServices::computeCartesianPath(const Re
         const auto began = std::chrono::steady_clock::now();
         const std::optional<PathTimingOptions> timing = requestedTiming(
             request, *scene->robot, query.path_constraints.isEmpty() ? query.max_deviation : 0.0, query.motions);
-        CheckerPool::Lease lease(checkers_, scene);
+        CheckerPool::Lease lease(checkers_, scene, !requested.is_changed);
         const Lines lines = withLease(
             lease,
             [&]

@@ -63,6 +63,7 @@ void addResults(const std::vector<CollisionFreeIkResult>& results, const Group& 
 struct KinematicsServices::IkTask
 {
   Snapshot now;
+  bool is_own_scene;  // the request does not change the scene for itself
   std::string group;
   std::vector<double> seed;
   std::vector<KinematicConstraints> goals;
@@ -94,7 +95,8 @@ KinematicsServices::IkTask KinematicsServices::taskOf(const ComputeIk::Request& 
 {
   requireLimits(request);
   RequestedScene requested = requestedScene(store_, others_.pose, request.scene_diff, {});
-  IkTask task{std::move(requested.now), request.group, {}, {}, searchOptions(request), std::move(requested.warnings)};
+  IkTask task{std::move(requested.now), !requested.is_changed,        request.group, {}, {},
+              searchOptions(request),   std::move(requested.warnings)};
   const PlanningScene& scene = *task.now.scene;
   const RobotModel& robot = *scene.robot;
   const LinkFrame frame = requestedFrame(scene, request.group, request.link);
@@ -116,7 +118,7 @@ KinematicsServices::IkTask KinematicsServices::taskOf(const ComputeIk::Request& 
 
 std::vector<CollisionFreeIkResult> KinematicsServices::solve(const IkTask& task)
 {
-  CheckerPool::Lease lease(checkers_, task.now.scene);
+  CheckerPool::Lease lease(checkers_, task.now.scene, task.is_own_scene);
   return withLease(lease,
                    [&]
                    {

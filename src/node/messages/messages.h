@@ -4,6 +4,7 @@
 // name the messages.
 
 #include <gpu_planning_scene/AllowedCollisionMatrix.h>
+#include <gpu_planning_scene/AnswerStatus.h>
 #include <gpu_planning_scene/ApplyPlanningScene.h>
 #include <gpu_planning_scene/CheckMotions.h>
 #include <gpu_planning_scene/CheckStates.h>
@@ -21,7 +22,6 @@
 #include <gpu_planning_scene/PlanningScene.h>
 #include <gpu_planning_scene/PlanningSceneComponents.h>
 #include <gpu_planning_scene/ShowTreeLevel.h>
-#include <gpu_planning_scene/Status.h>
 #include <gpu_planning_scene/WatchState.h>
 #include <gpu_planning_scene/WatchTrajectory.h>
 

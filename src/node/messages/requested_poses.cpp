@@ -3,13 +3,13 @@
 #include <cmath>
 #include <optional>
 
+#include "base/error_place.h"
 #include "base/math_constants.h"
 #include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/inverse_kinematics.h"
 #include "model/rigid_pose.h"
 #include "scene/constraints_from_message.h"
-#include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
 {
@@ -55,18 +55,8 @@ Eigen::Isometry3d PoseReader::pose(const geometry_msgs::PoseStamped& message, bo
   pose.translation() = constraint_messages::vectorOf(message.pose.position, where + ": the position");
   if (with_orientation)
     pose.linear() = constraint_messages::rotationOf(message.pose.orientation, where).toRotationMatrix();
-  try
-  {
-    pose = frame({message.header.frame_id, static_cast<std::int64_t>(message.header.stamp.toNSec())}) * pose;
-  }
-  catch (const ShuttingDown&)
-  {
-    throw;  // its type decides the status of the answer
-  }
-  catch (const Error& error)
-  {
-    throw Error(where + ": " + error.what());
-  }
+  const StampedFrame of{message.header.frame_id, static_cast<std::int64_t>(message.header.stamp.toNSec())};
+  pose = withErrorPlace(where, [&] { return frame(of); }) * pose;
   return nearestRigid(pose, where);
 }
 

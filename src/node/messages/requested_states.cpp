@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/error_place.h"
 #include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
@@ -66,14 +67,8 @@ RequestedState requestedState(const RobotModel& robot, const RequestField<std::v
           if (count != 1)
             throw Error(std::string(values.name) + " has " + std::to_string(count) + " rows; give one state");
         });
-  try
-  {
-    requested.state = fullStates(robot, requested.columns, requested.row.values.data(), 1, current);
-  }
-  catch (const Error& error)
-  {
-    throw Error(what + ": " + error.what());
-  }
+  requested.state = withErrorPlace(
+      what, [&] { return fullStates(robot, requested.columns, requested.row.values.data(), 1, current); });
   return requested;
 }
 

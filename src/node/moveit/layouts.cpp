@@ -114,6 +114,13 @@ std::string stateValidityDefinition()
          "gpu_planning_scene/RobotState\n" + definitionOf<RobotState>() + separator + "moveit_msgs/Constraints\n" +
          definitionOf<moveit_msgs::Constraints>();
 }
+
+/// The response of our service without the fields before its scene: MoveIt's response has only the scene.
+std::string sceneOfResponse()
+{
+  return "PlanningScene scene" + std::string("\n") + kSeparator + "gpu_planning_scene/PlanningScene\n" +
+         definitionOf<PlanningSceneMessage>();
+}
 }  // namespace
 
 std::vector<std::string> layoutOf(const std::string& definition)
@@ -143,7 +150,8 @@ std::vector<LayoutPair> moveItLayouts()
           pairOf<AttachedCollisionObject, moveit_msgs::AttachedCollisionObject>(),
           pairOf<PlanningSceneWorld, moveit_msgs::PlanningSceneWorld>(),
           pairOf<GetPlanningScene::Request, moveit_msgs::GetPlanningScene::Request>(),
-          pairOf<GetPlanningScene::Response, moveit_msgs::GetPlanningScene::Response>(kOnlyOurs),
+          {ros::message_traits::DataType<moveit_msgs::GetPlanningScene::Response>::value(), sceneOfResponse(),
+           definitionOf<moveit_msgs::GetPlanningScene::Response>(), kOnlyOurs},
           pairOf<ApplyPlanningScene::Request, moveit_msgs::ApplyPlanningScene::Request>(kOnlyOurs),
           {ros::message_traits::DataType<moveit_msgs::GetStateValidity::Request>::value(), stateValidityDefinition(),
            definitionOf<moveit_msgs::GetStateValidity::Request>(), 0}};

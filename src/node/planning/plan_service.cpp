@@ -29,7 +29,7 @@ std::uint8_t statusOf(PlanningStatus status)
   switch (status)
   {
     case PlanningStatus::Solved:
-      return Status::OK;
+      return AnswerStatus::OK;
     case PlanningStatus::Approximate:
       return Response::APPROXIMATE;
     case PlanningStatus::NoSolution:
@@ -47,7 +47,7 @@ std::uint8_t statusOf(PlanningStatus status)
     case PlanningStatus::GoalViolatesConstraints:
       return Response::GOAL_VIOLATES_CONSTRAINTS;
   }
-  return Status::INTERNAL_ERROR;
+  return AnswerStatus::INTERNAL_ERROR;
 }
 }  // namespace
 
@@ -111,13 +111,28 @@ void PlanService::stop()
 
 PlanMotion::Response PlanService::plan(const PlanMotion::Request& request)
 {
-  return respond<Response>([&](Response& response) { fill(request, response); });
+  return respond<Response>([&](Response& response) { return fill(request, response); });
+}
+
+/// A planner that the request does not name is named in ~planners, so the request is not the cause of its errors.
+std::shared_ptr<const PlannerFactory> PlanService::factoryOf(const PlannerConfig& config, const std::string& requested)
+{
+  try
+  {
+    return plugins_.find(config.type, configs_.names());
+  }
+  catch (const Error& error)
+  {
+    if (!requested.empty() && configs_.configs().count(requested) == 0)
+      throw;
+    throw InternalError(std::string("~planners: ") + error.what());
+  }
 }
 
 PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
 {
   const PlannerConfig config = configs_.find(request.planner, request.group);
-  const std::shared_ptr<const PlannerFactory> factory = plugins_.find(config.type, configs_.names());
+  const std::shared_ptr<const PlannerFactory> factory = factoryOf(config, request.planner);
   RequestedScene requested = requestedScene(store_, others_.pose, request.scene_diff, {});
   const Snapshot& now = requested.now;
   const RequestedState start = requestedStart(request, now);
@@ -128,12 +143,12 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
     warnings.push_back(std::move(warning));
   const auto timing = requestedTiming(request, *now.scene->robot,
                                       query.path_constraints.isEmpty() ? options_.max_deviation : 0.0, query.motions);
-  return {now.scene, std::move(query), timing, factory, config.type, std::move(warnings)};
+  return {now.scene, !requested.is_changed, std::move(query), timing, factory, config.type, std::move(warnings)};
 }
 
 PlanService::Answer PlanService::plan(const Task& task)
 {
-  CheckerPool::Lease lease(checkers_, task.scene);
+  CheckerPool::Lease lease(checkers_, task.scene, task.is_own_scene);
   const auto stop = [this] { return stopping_.load(); };
   try
   {
@@ -151,7 +166,7 @@ PlanService::Answer PlanService::plan(const Task& task)
   }
 }
 
-void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response& response)
+std::uint8_t PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response& response)
 {
   memory_.require();
   const Admission::Pass pass(admission_);
@@ -161,7 +176,7 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
   if (stopping_)
     throw ShuttingDown();
   const Group& group = task.scene->robot->group(request.group);
-  response.status = statusOf(result.status);
+  const std::uint8_t status = statusOf(result.status);
   response.message = result.message;
   addWarnings(task.warnings, response.message);
   response.trajectory =
@@ -182,5 +197,6 @@ void PlanService::fill(const PlanMotion::Request& request, PlanMotion::Response&
   show_(std::make_shared<const ShownPlan>(ShownPlan{task.scene, group, task.query.start, task.query.goal_regions,
                                                     result.status, result.message, std::move(answer.plan.waypoints),
                                                     std::move(answer.timed)}));
+  return status;
 }
 }  // namespace gpu_planning_scene::core

@@ -28,9 +28,10 @@ class PlanService
  public:
   using Show = std::function<void(std::shared_ptr<const ShownPlan>)>;
 
-  /// `make_checker`: makes checkers whose errors are those of requests. Each check should begin on the caller's thread,
-  /// because a planner checks some hundred states at a time. `others`: the frames of requests that the scene does not
-  /// have. `show`: gets each plan, on the thread of its request. Throws Error for wrong values in ~planners.
+  /// `make_checker`: makes checkers whose errors are those of requests, except if they do not take the store's own
+  /// scene. Each check should begin on the caller's thread, because a planner checks some hundred states at a time.
+  /// `others`: the frames of requests that the scene does not have. `show`: gets each plan, on the thread of its
+  /// request. Throws Error for wrong values in ~planners.
   PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFrames others, MakeChecker make_checker,
               const MemoryGuard& memory, Show show, const PlanServiceOptions& options);
 
@@ -48,6 +49,7 @@ class PlanService
   struct Task
   {
     std::shared_ptr<const PlanningScene> scene;
+    bool is_own_scene;  // the request does not change the scene for itself
     PlanningQuery query;
     std::optional<PathTimingOptions> timing;  // no value: the answer has no times
     std::shared_ptr<const PlannerFactory> factory;
@@ -61,7 +63,9 @@ class PlanService
     std::optional<TimedPath> timed;  // of a path, if the request wants times
   };
 
-  void fill(const PlanMotion::Request& request, PlanMotion::Response& response);
+  /// Returns the status of the response.
+  std::uint8_t fill(const PlanMotion::Request& request, PlanMotion::Response& response);
+  std::shared_ptr<const PlannerFactory> factoryOf(const PlannerConfig& config, const std::string& requested);
   Task taskOf(const PlanMotion::Request& request);
   Answer plan(const Task& task);
 

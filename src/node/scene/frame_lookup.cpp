@@ -74,7 +74,9 @@ Eigen::Isometry3d FrameLookup::operator()(const StampedFrame& frame, Clock::time
         continue;
       std::ostringstream text;
       text << fault(withoutSlash(frame.name), stampOf(frame)) << " (waited " << timeout_ << " s: tf_timeout)";
-      throw Error(text.str());
+      if (isTooOld(frame) || isSubframeOfScene(frame))
+        throw Error(text.str());
+      throw NotKnownYet(text.str());
     }
   }
 }
@@ -88,6 +90,24 @@ std::vector<std::string> FrameLookup::parents(const std::string& frame) const
        child = parent)
     found.push_back(parent);
   return found;
+}
+
+/// Whether tf has only transforms that are later than the stamp. Then the wanted one will not come any more.
+bool FrameLookup::isTooOld(const StampedFrame& frame) const
+{
+  const std::string name = withoutSlash(frame.name);
+  return frame.stamp != 0 && buffer_.canTransform(planning_frame_, name, ros::Time(0)) &&
+         stampOf(frame) < buffer_.lookupTransform(planning_frame_, name, ros::Time(0)).header.stamp;
+}
+
+/// Whether the name is FRAME/SUBFRAME with a frame of the scene, which lacks this subframe. tf will not bring it.
+bool FrameLookup::isSubframeOfScene(const StampedFrame& frame) const
+{
+  const std::string name = withoutSlash(frame.name);
+  const std::size_t slash = name.rfind('/');
+  const std::vector<std::string> of_scene = scene_frames_();
+  return slash != std::string::npos &&
+         std::find(of_scene.begin(), of_scene.end(), name.substr(0, slash)) != of_scene.end();
 }
 
 /// Why tf has no transform from the frame to the planning frame, and the remedy.

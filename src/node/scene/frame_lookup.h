@@ -33,13 +33,16 @@ class FrameLookup
   };
   /// The pose of the frame at its stamp (0: the latest). Does not wait. Throws tf2::TransformException.
   Found find(const StampedFrame& frame) const;
-  /// The pose of the frame at its stamp (0: the latest). Waits for the frame, at most until `until`; then throws Error
-  /// that says whether the name, the connection to the planning frame or the time is at fault.
+  /// The pose of the frame at its stamp (0: the latest). Waits for the frame, at most until `until`; then throws
+  /// NotKnownYet, or Error if tf only has later transforms, or if the scene lacks the named subframe. The error says
+  /// whether the name, the connection to the planning frame or the time is at fault.
   Eigen::Isometry3d operator()(const StampedFrame& frame, Clock::time_point until) const;
   /// The parent of a frame, the parent of its parent, and so on; empty for a frame that tf does not know.
   std::vector<std::string> parents(const std::string& frame) const;
 
  private:
+  bool isTooOld(const StampedFrame& frame) const;
+  bool isSubframeOfScene(const StampedFrame& frame) const;
   std::string fault(const std::string& frame, const ros::Time& stamp) const;
 
   const std::string planning_frame_;

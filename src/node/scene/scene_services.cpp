@@ -97,6 +97,8 @@ GetPlanningScene::Response SceneServices::get(const GetPlanningScene::Request& r
   }
   if (!response.scene.robot_state.joint_state.name.empty())
     response.scene.robot_state.joint_state.header.stamp.fromNSec(static_cast<std::uint64_t>(now.stamp));
+  response.success = true;
+  response.status = AnswerStatus::OK;
   return response;
 }
 

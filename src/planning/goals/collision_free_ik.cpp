@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/error_place.h"
 #include "base/parallel_for.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
@@ -183,14 +184,11 @@ std::vector<CollisionFreeIkResult> solveCollisionFree(const PlanningScene& scene
   Solver solver(scene, checker, group, state, options);
   for (std::size_t i = 0; i < goals.size(); ++i)
   {
-    try
-    {
-      solver.add(goals[i]);
-    }
-    catch (const Error& error)
-    {
-      throw Error(goals.size() == 1 ? error.what() : "goal " + std::to_string(i) + ": " + error.what());
-    }
+    const auto add = [&] { solver.add(goals[i]); };
+    if (goals.size() == 1)
+      add();
+    else
+      withErrorPlace("goal " + std::to_string(i), add);
   }
   return solver.run(stop);
 }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/error_place.h"
 #include "gpu_planning_scene/error.h"
 #include "planning/space/group_space.h"
 
@@ -65,14 +66,12 @@ GoalRegions::GoalRegions(const ob::SpaceInformationPtr& information, std::shared
   setThreshold(kGoalRounding);
   for (std::size_t i = 0; i < regions.size(); ++i)
   {
-    try
-    {
-      regions_.push_back(std::make_unique<Region>(scene_->robot, space_->group().name, regions[i], start, seed + i));
-    }
-    catch (const Error& error)
-    {
-      throw Error(regions.size() == 1 ? error.what() : "goal region " + std::to_string(i) + ": " + error.what());
-    }
+    const auto add = [&]
+    { regions_.push_back(std::make_unique<Region>(scene_->robot, space_->group().name, regions[i], start, seed + i)); };
+    if (regions.size() == 1)
+      add();
+    else
+      withErrorPlace("goal region " + std::to_string(i), add);
   }
   for (const ob::ScopedState<>& state : states)
     states_.push_back(information->cloneState(state.get()));

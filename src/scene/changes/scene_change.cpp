@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/error_place.h"
 #include "base/text/one_line.h"
 #include "gpu_planning_scene/error.h"
 #include "scene/changes/scene_changer.h"
@@ -35,14 +36,8 @@ ChangedScene applyChange(const PlanningScene& scene, const std::vector<double>& 
                   "', links, objects, OBJECT/SUBFRAME, fixed frames of the scene, and frames of tf");
     return found->second;
   };
-  try
-  {
-    return SceneChanger(scene, state, defaults, limits, lookup).make(change);
-  }
-  catch (const Error& error)
-  {
-    throw Error(shortLine(error.what()));
-  }
+  return withErrorText([](const std::string& message) { return shortLine(message); },
+                       [&] { return SceneChanger(scene, state, defaults, limits, lookup).make(change); });
 }
 
 /// Tries the change with an arbitrary state of the robot, and an arbitrary pose for each unknown frame. They do not

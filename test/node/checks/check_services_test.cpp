@@ -38,7 +38,7 @@ class Service : public testing::Test
   CheckStates::Response answer(const CheckStates::Request& asked) { return services.checkStates(asked); }
 
   void expectRefusal(const CheckStates::Request& asked, const std::string& reason,
-                     std::uint8_t status = Status::INVALID_REQUEST)
+                     std::uint8_t status = AnswerStatus::INVALID_REQUEST)
   {
     const CheckStates::Response response = answer(asked);
     EXPECT_FALSE(response.success);
@@ -61,7 +61,7 @@ TEST_F(Service, AnswersEachStateInOrder)
 {
   const CheckStates::Response response = answer(request({"turn", "slide"}, {0.5, 0.0, 0.5, 1.0, 1.0, 0.5}));
   EXPECT_TRUE(response.success) << response.message;
-  EXPECT_EQ(Status::OK, response.status);
+  EXPECT_EQ(AnswerStatus::OK, response.status);
   EXPECT_EQ("", response.message);
   EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 1}), response.valid);
   ASSERT_EQ(3u, response.body_1.size());
@@ -84,11 +84,59 @@ TEST_F(Service, ARequestCanNameARevision)
     EXPECT_EQ(std::vector<std::uint8_t>{revision == 5 ? std::uint8_t{0} : std::uint8_t{1}}, response.valid);
   }
   asked.scene_revision = 4;
-  expectRefusal(asked, "revision 4 of the scene is not kept; the newest is 6", Status::UNKNOWN_REVISION);
+  expectRefusal(asked, "revision 4 of the scene is not kept; the newest is 6", AnswerStatus::UNKNOWN_REVISION);
+  EXPECT_EQ(6u, answer(asked).scene_revision) << "above the requested one: the node will not have that one again";
   asked.scene_revision = 7;
-  expectRefusal(asked, "revision 7 of the scene has not arrived; the newest is 6", Status::UNKNOWN_REVISION);
+  expectRefusal(asked, "revision 7 of the scene has not arrived; the newest is 6", AnswerStatus::UNKNOWN_REVISION);
+  EXPECT_EQ(6u, answer(asked).scene_revision) << "below the requested one, which may still arrive";
   asked.scene_revision = 0;
   EXPECT_EQ(6u, answer(asked).scene_revision);
+}
+
+/// A service whose requests wait up to a minute for their revision, at most one at a time.
+class WaitingForARevision : public Service
+{
+ public:
+  std::future<CheckStates::Response> ask(std::uint64_t revision)
+  {
+    CheckStates::Request asked = request({"turn", "slide"}, {0.5, 0.0});
+    asked.scene_revision = revision;
+    return std::async(std::launch::async, [this, asked] { return patient.checkStates(asked); });
+  }
+
+  static CheckServicesOptions few()
+  {
+    CheckServicesOptions options;
+    options.revision_wait = std::chrono::minutes(1);
+    options.max_revision_waits = 1;
+    return options;
+  }
+
+  CheckServices patient{store, server, memory, few(), {}};
+};
+
+TEST_F(WaitingForARevision, EndsWithTheNode)
+{
+  std::future<CheckStates::Response> waiting = ask(9);
+  EXPECT_EQ(std::future_status::timeout, waiting.wait_for(std::chrono::milliseconds(200)));
+  patient.stop();
+  ASSERT_EQ(std::future_status::ready, waiting.wait_for(std::chrono::seconds(20)));
+  EXPECT_EQ(AnswerStatus::SHUTTING_DOWN, waiting.get().status);
+  EXPECT_EQ(AnswerStatus::SHUTTING_DOWN, ask(9).get().status);
+}
+
+TEST_F(WaitingForARevision, IsForFewRequestsAtATime)
+{
+  std::future<CheckStates::Response> first = ask(6);
+  std::future<CheckStates::Response> second = ask(6);
+  const auto is_ready = [](const auto& answer)
+  { return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready; };
+  while (!is_ready(first) && !is_ready(second))
+    std::this_thread::yield();
+  store.clear();
+  std::vector<std::uint8_t> statuses = {first.get().status, second.get().status};
+  std::sort(statuses.begin(), statuses.end());
+  EXPECT_EQ((std::vector<std::uint8_t>{AnswerStatus::OK, AnswerStatus::BUSY}), statuses);
 }
 
 TEST_F(Service, OtherVariablesTakeTheCurrentState)
@@ -98,7 +146,8 @@ TEST_F(Service, OtherVariablesTakeTheCurrentState)
       "no value for slide; give values for all joints (a named state takes no further values), or set the "
       "current state: "
       "with robot_state.joint_state in the scene file, or, for a node, with the topic joint_states or "
-      "~apply_planning_scene; list joints that nobody measures, such as casters, as <passive_joint> in the SRDF");
+      "~apply_planning_scene; list joints that nobody measures, such as casters, as <passive_joint> in the SRDF",
+      AnswerStatus::UNAVAILABLE);
   store.updateState({{"slide", 1.0}});
   EXPECT_EQ((std::vector<std::uint8_t>{0}), answer(request({"turn"}, {0.5})).valid);
 }
@@ -306,9 +355,8 @@ TEST_F(WaitingInspections, AreRejectedWhenTheQueueIsFull)
   for (auto& answer : answers)
   {
     const CheckStates::Response response = answer.get();
-    busy += response.status == Status::BUSY ? 1 : 0;
-    EXPECT_EQ(response.success != 0, response.status == Status::OK) << response.message;
-    EXPECT_TRUE(response.success || response.status == Status::BUSY) << response.message;
+    busy += response.status == AnswerStatus::BUSY ? 1 : 0;
+    EXPECT_TRUE(response.success || response.status == AnswerStatus::BUSY) << response.message;
   }
   EXPECT_EQ(1, busy);
 }
@@ -323,7 +371,7 @@ TEST_F(WaitingInspections, StopRejectsThemWhileACheckerHangs)
   {
     const CheckStates::Response response = answer.get();
     EXPECT_FALSE(response.success);
-    EXPECT_EQ(Status::SHUTTING_DOWN, response.status);
+    EXPECT_EQ(AnswerStatus::SHUTTING_DOWN, response.status);
     EXPECT_EQ("shutting down: the request was not answered", response.message);
   }
   gate.open();
@@ -374,6 +422,7 @@ TEST_F(Service, NamesWithoutValuesAreRefused)
   {
     const CheckMotions::Response response = services.checkMotions(motions);
     EXPECT_FALSE(response.success);
+    EXPECT_EQ(AnswerStatus::INVALID_REQUEST, response.status);
     return response.message;
   };
   EXPECT_EQ("starts is empty, but joint_names names turn; give rows of 1 value", refusal());
@@ -388,7 +437,7 @@ TEST_F(Service, NamesWithoutValuesAreRefused)
 
 TEST_F(Service, ARequestWithoutStatesChecksTheCurrentState)
 {
-  expectRefusal(request({}, {}), "no value for slide");
+  expectRefusal(request({}, {}), "no value for slide", AnswerStatus::UNAVAILABLE);
   store.updateState({{"slide", 0.0}, {"turn", 0.5}});
   EXPECT_EQ(std::vector<std::uint8_t>{1}, answer(request({}, {})).valid);
   store.updateState({{"slide", 1.0}});
@@ -538,7 +587,7 @@ TEST_F(Service, AMotionIsAnsweredWithWhereItIsBlockedAndByWhat)
   EXPECT_EQ(5u, response.scene_revision);
   asked.group = "mast";
   const CheckMotions::Response of_other_group = services.checkMotions(asked);
-  EXPECT_FALSE(of_other_group.success);
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, of_other_group.status);
   EXPECT_EQ(0u, of_other_group.message.find("motion 0 moves slide, which is not in group 'mast'"))
       << of_other_group.message;
   asked.ends.pop_back();
@@ -791,7 +840,7 @@ TEST_F(Service, AProcessThatUsesTooMuchMemoryTakesNothingMore)
   const MemoryGuard full(1);
   CheckServices guarded(store, server, full, {}, {});
   const CheckStates::Response response = guarded.checkStates(request({"turn", "slide"}, {0.0, 0.0}));
-  EXPECT_EQ(Status::UNAVAILABLE, response.status);
+  EXPECT_EQ(AnswerStatus::OUT_OF_MEMORY, response.status);
   EXPECT_NE(std::string::npos, response.message.find("limits/memory")) << response.message;
 }
 
@@ -816,9 +865,59 @@ TEST_F(Service, AFailureOfTheDeviceIsAnAnswer)
     const auto response =
         CheckServices(store, failing, memory, {}, {}).checkStates(request({"turn", "slide"}, {0.0, 0.0}));
     EXPECT_FALSE(response.success);
-    EXPECT_EQ(Status::INTERNAL_ERROR, response.status);
+    EXPECT_EQ(AnswerStatus::INTERNAL_ERROR, response.status);
     EXPECT_EQ("no device", response.message);
   }
+}
+
+TEST_F(Service, AFullQueueAndAnEndingNodeAnswerEachServiceWithTheirStatus)
+{
+  Gate gate;
+  CheckServerOptions options;
+  options.small_request = 1;
+  options.max_waiting_requests = 1;
+  CheckServer gated(
+      store, [&gate](auto scene) { return std::make_shared<GatedChecker>(std::move(scene), gate); }, options);
+  CheckServices crowded(store, gated, memory, {}, {});
+  CheckMotions::Request motion;
+  motion.joint_names = {"turn", "slide"};
+  motion.starts = motion.ends = {0.0, 0.0};
+  motion.motion_rule = "samples";
+  motion.resolution = motion.translation_resolution = 0.1;
+  CheckTrajectory::Request trajectory;
+  trajectory.motion_rule = motion.motion_rule;
+  trajectory.joint_trajectory.joint_names = motion.joint_names;
+  trajectory.joint_trajectory.points.resize(1);
+  trajectory.joint_trajectory.points[0].positions = {0.0, 0.0};
+  trajectory.start_state.joint_state.name = motion.joint_names;
+  trajectory.start_state.joint_state.position = {0.0, 0.0};
+  trajectory.resolution = trajectory.translation_resolution = 0.1;
+  const auto expect_statuses = [&](std::uint8_t status)
+  {
+    EXPECT_EQ(status, crowded.checkStates(request(motion.joint_names, {0.0, 0.0})).status);
+    EXPECT_EQ(status, crowded.report({}).status);
+    EXPECT_EQ(status, crowded.checkMotions(motion).status);
+    EXPECT_EQ(status, crowded.checkTrajectory(trajectory).status);
+  };
+
+  gate.close();
+  std::vector<std::future<CheckAnswer>> before;
+  for (const std::size_t states : {1, 2})  // of the queue of small requests, and of that of large ones
+    for (int i = 0; i < 2; ++i)            // one that is checked, and one that waits
+    {
+      CheckJob job;
+      job.states.assign(2 * states, 0.0);
+      before.push_back(gated.submit(std::move(job)));
+      if (i == 0)
+        gate.waitForChecks(states);
+    }
+  expect_statuses(AnswerStatus::BUSY);
+  gate.open();
+  for (std::future<CheckAnswer>& answer : before)
+    answer.get();
+  expect_statuses(AnswerStatus::OK);
+  gated.stop();
+  expect_statuses(AnswerStatus::SHUTTING_DOWN);
 }
 
 /// A mobile robot with known joint values. The pose of its base is unknown.

@@ -75,10 +75,12 @@ class SliderTrajectory : public testing::Test
     return slider.services.checkTrajectory(request);
   }
 
-  void expectRefusal(const CheckTrajectory::Request& request, const std::string& reason)
+  void expectRefusal(const CheckTrajectory::Request& request, const std::string& reason,
+                     std::uint8_t status = AnswerStatus::INVALID_REQUEST)
   {
     const CheckTrajectory::Response response = answer(request);
     EXPECT_FALSE(response.success);
+    EXPECT_EQ(status, response.status);
     EXPECT_EQ(reason, response.message);
     EXPECT_TRUE(response.waypoint_valid.empty());
   }
@@ -134,7 +136,8 @@ TEST_F(SliderTrajectory, JointsThatItDoesNotNameKeepTheStartsValues)
       "no value for slide, turn; give values for all joints (a named state takes no further values), or set "
       "the current state: "
       "with robot_state.joint_state in the scene file, or, for a node, with the topic joint_states or "
-      "~apply_planning_scene; list joints that nobody measures, such as casters, as <passive_joint> in the SRDF");
+      "~apply_planning_scene; list joints that nobody measures, such as casters, as <passive_joint> in the SRDF",
+      AnswerStatus::UNAVAILABLE);
   slider.store.updateState({{"slide", 1.0}, {"turn", 0.0}});
   EXPECT_EQ((std::vector<std::uint8_t>{0, 0}), answer(request).waypoint_valid);
   request.start_state.joint_state.name = {"slide"};

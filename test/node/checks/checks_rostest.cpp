@@ -130,7 +130,7 @@ TEST_F(Checks, ATrajectoryHasTheVerdictsOfItsWaypointsAndMotions)
   EXPECT_EQ(0, response.waypoint_valid.at(1));
   EXPECT_EQ(scene().scene_revision, response.scene_revision);
   request.joint_trajectory.points[1].positions.clear();
-  EXPECT_FALSE(call<CheckTrajectory>("check_trajectory", request).success);
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, call<CheckTrajectory>("check_trajectory", request).status);
 }
 
 TEST_F(Checks, ASceneDiffCountsForItsRequestAlone)
@@ -162,10 +162,10 @@ TEST_F(Checks, WrongMotionsAreRefused)
 {
   auto request = motion(free_state, free_state);
   request.resolution = 0.0;
-  EXPECT_FALSE(call<CheckMotions>("check_motions", request).success);
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, call<CheckMotions>("check_motions", request).status);
   request = motion(free_state, free_state);
   request.ends.pop_back();
-  EXPECT_FALSE(call<CheckMotions>("check_motions", request).success);
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, call<CheckMotions>("check_motions", request).status);
 }
 
 TEST_F(Checks, TheReportListsModelledAndOmittedParts)
@@ -183,7 +183,7 @@ TEST_F(Checks, TheReportListsModelledAndOmittedParts)
   EXPECT_EQ(scene().scene_revision, response.scene_revision);
   GetReport::Request unknown;
   unknown.group = "no such group";
-  EXPECT_FALSE(call<GetReport>("get_report", unknown).success);
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, call<GetReport>("get_report", unknown).status);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

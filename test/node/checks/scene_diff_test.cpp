@@ -244,6 +244,7 @@ TEST_F(SceneDiff, ThatCannotBeAppliedIsRefusedAndChangesNothing)
     request.scene_diff = diff;
     const auto response = asked.checks.checkStates(request);
     EXPECT_FALSE(response.success);
+    EXPECT_EQ(AnswerStatus::INVALID_REQUEST, response.status);
     EXPECT_EQ(reason, response.message);
     EXPECT_TRUE(response.valid.empty());
     EXPECT_EQ(before, asked.store.snapshot().scene);

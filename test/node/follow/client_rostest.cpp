@@ -26,7 +26,7 @@ struct Case
 {
   std::string name;
   std::vector<std::uint8_t> statuses;
-  std::uint8_t result = Status::OK;
+  std::uint8_t result = AnswerStatus::OK;
   std::size_t calls = 0;
 };
 
@@ -52,29 +52,28 @@ TEST_P(ClientOfOneNode, RepeatsACallOnlyIfThatCanHelp)
     ShardedChecker checker({"/fake"}, withPatience(20.0));
     const CheckStates::Response response = checker.check(FakeNode::requestOf(states));
     EXPECT_EQ(GetParam().result, response.status) << response.message;
-    EXPECT_EQ(GetParam().result == Status::OK, response.success != 0);
-    EXPECT_EQ(GetParam().result == Status::OK ? states : 0, response.valid.size());
+    EXPECT_EQ(GetParam().result == AnswerStatus::OK, response.success != 0);
+    EXPECT_EQ(GetParam().result == AnswerStatus::OK ? states : 0, response.valid.size());
     if (states == 1)
       EXPECT_EQ(GetParam().calls, node.calls());
-    if (GetParam().result != Status::OK)
+    if (GetParam().result != AnswerStatus::OK)
       EXPECT_EQ("/fake: a fault", response.message);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Statuses, ClientOfOneNode,
-    testing::Values(Case{"Ok", {Status::OK}, Status::OK, 1}, Case{"Busy", {Status::BUSY, Status::OK}, Status::OK, 2},
-                    Case{"ShuttingDown", {Status::SHUTTING_DOWN, Status::OK}, Status::OK, 2},
-                    Case{"Unavailable", {Status::UNAVAILABLE, Status::OK}, Status::OK, 2},
-                    Case{"UnknownRevision", {Status::UNKNOWN_REVISION, Status::OK}, Status::OK, 2},
-                    // If OK is the status of an empty response, this is the first case again.
-                    Case{"EmptyResponse",
-                         {CheckStates::Response().status, Status::OK},
-                         Status::OK,
-                         CheckStates::Response().status == Status::OK ? std::size_t{1} : std::size_t{2}},
-                    Case{"InvalidRequest", {Status::INVALID_REQUEST, Status::OK}, Status::INVALID_REQUEST, 1},
-                    Case{"InternalError", {Status::INTERNAL_ERROR, Status::OK}, Status::INTERNAL_ERROR, 1},
-                    Case{"UnknownStatus", {kUnknownStatus, Status::OK}, kUnknownStatus, 1}),
+    testing::Values(
+        Case{"Ok", {AnswerStatus::OK}, AnswerStatus::OK, 1},
+        Case{"Busy", {AnswerStatus::BUSY, AnswerStatus::OK}, AnswerStatus::OK, 2},
+        Case{"ShuttingDown", {AnswerStatus::SHUTTING_DOWN, AnswerStatus::OK}, AnswerStatus::OK, 2},
+        Case{"Unavailable", {AnswerStatus::UNAVAILABLE, AnswerStatus::OK}, AnswerStatus::OK, 2},
+        Case{"UnknownRevision", {AnswerStatus::UNKNOWN_REVISION, AnswerStatus::OK}, AnswerStatus::OK, 2},
+        Case{"EmptyResponse", {0, AnswerStatus::OK}, AnswerStatus::OK, 2},
+        Case{"OutOfMemory", {AnswerStatus::OUT_OF_MEMORY, AnswerStatus::OK}, AnswerStatus::OUT_OF_MEMORY, 1},
+        Case{"InvalidRequest", {AnswerStatus::INVALID_REQUEST, AnswerStatus::OK}, AnswerStatus::INVALID_REQUEST, 1},
+        Case{"InternalError", {AnswerStatus::INTERNAL_ERROR, AnswerStatus::OK}, AnswerStatus::INTERNAL_ERROR, 1},
+        Case{"UnknownStatus", {kUnknownStatus, AnswerStatus::OK}, kUnknownStatus, 1}),
     nameOf);
 
 class ClientOfTwoNodes : public testing::TestWithParam<Case>
@@ -86,7 +85,7 @@ TEST_P(ClientOfTwoNodes, TakesTheOtherOneAtOnce)
   for (const std::size_t states : {std::size_t{1}, kManyStates})
   {
     const FakeNode fails("/fails", GetParam().statuses);
-    const FakeNode answers("/answers", {Status::OK});
+    const FakeNode answers("/answers", {AnswerStatus::OK});
     ShardedChecker checker({"/fails", "/answers"}, withPatience(20.0));
     const CheckStates::Response response = checker.check(FakeNode::requestOf(states));
     EXPECT_TRUE(response.success) << response.message;
@@ -97,17 +96,19 @@ TEST_P(ClientOfTwoNodes, TakesTheOtherOneAtOnce)
 }
 
 INSTANTIATE_TEST_SUITE_P(Statuses, ClientOfTwoNodes,
-                         testing::Values(Case{"Busy", {Status::BUSY}}, Case{"ShuttingDown", {Status::SHUTTING_DOWN}},
-                                         Case{"Unavailable", {Status::UNAVAILABLE}},
-                                         Case{"UnknownRevision", {Status::UNKNOWN_REVISION}},
-                                         Case{"InvalidRequest", {Status::INVALID_REQUEST}},
-                                         Case{"InternalError", {Status::INTERNAL_ERROR}},
+                         testing::Values(Case{"Busy", {AnswerStatus::BUSY}},
+                                         Case{"ShuttingDown", {AnswerStatus::SHUTTING_DOWN}},
+                                         Case{"Unavailable", {AnswerStatus::UNAVAILABLE}},
+                                         Case{"UnknownRevision", {AnswerStatus::UNKNOWN_REVISION}},
+                                         Case{"InvalidRequest", {AnswerStatus::INVALID_REQUEST}},
+                                         Case{"InternalError", {AnswerStatus::INTERNAL_ERROR}},
                                          Case{"UnknownStatus", {kUnknownStatus}}),
                          nameOf);
 
 TEST(ClientOfFakes, WithoutAnAnswerTheStatusIsThatOfTheLastReason)
 {
-  for (const std::uint8_t status : {Status::BUSY, Status::SHUTTING_DOWN, Status::UNAVAILABLE, Status::UNKNOWN_REVISION})
+  for (const std::uint8_t status :
+       {AnswerStatus::BUSY, AnswerStatus::SHUTTING_DOWN, AnswerStatus::UNAVAILABLE, AnswerStatus::UNKNOWN_REVISION})
     for (const std::size_t states : {std::size_t{1}, kManyStates})
     {
       const FakeNode node("/fake", {status});
@@ -120,9 +121,20 @@ TEST(ClientOfFakes, WithoutAnAnswerTheStatusIsThatOfTheLastReason)
     }
 }
 
+TEST(ClientOfFakes, ARevisionThatIsNotKeptAnyMoreEndsTheCallAtOnce)
+{
+  const FakeNode node("/fake", {AnswerStatus::UNKNOWN_REVISION}, FakeNode::kRevision);
+  ShardedChecker checker({"/fake"}, withPatience(1000.0));
+  CheckStates::Request request = FakeNode::requestOf(1);
+  request.scene_revision = FakeNode::kRevision - 1;
+  EXPECT_EQ(AnswerStatus::UNKNOWN_REVISION, checker.check(request).status);
+  EXPECT_EQ(std::size_t{1}, node.calls());
+}
+
 TEST(ClientOfFakes, ARequestThatAllNodesRefuseIsSentToEachOfThemOnce)
 {
-  for (const std::uint8_t status : {std::uint8_t{Status::INTERNAL_ERROR}, kUnknownStatus})
+  for (const std::uint8_t status :
+       {std::uint8_t{AnswerStatus::INTERNAL_ERROR}, std::uint8_t{AnswerStatus::OUT_OF_MEMORY}, kUnknownStatus})
     for (const std::size_t states : {std::size_t{1}, kManyStates})
     {
       const FakeNode one("/one", {status});
@@ -135,9 +147,9 @@ TEST(ClientOfFakes, ARequestThatAllNodesRefuseIsSentToEachOfThemOnce)
 
 TEST(ClientOfFakes, AnAnswerForAnotherRevisionIsNone)
 {
-  const FakeNode node("/fake", {Status::OK}, FakeNode::kRevision + 1);
+  const FakeNode node("/fake", {AnswerStatus::OK}, FakeNode::kRevision + 1);
   const CheckStates::Response response = ShardedChecker({"/fake"}, withPatience(0.0)).check(FakeNode::requestOf(1));
-  EXPECT_EQ(Status::UNKNOWN_REVISION, response.status);
+  EXPECT_EQ(AnswerStatus::UNKNOWN_REVISION, response.status);
   EXPECT_EQ(
       "no node can answer; the last reason: /fake: the node has answered for revision 8 of the scene instead of 7",
       response.message);
@@ -151,7 +163,7 @@ TEST(ClientOfFakes, ANodeOfAnotherVersionIsNamedAsTheReason)
       [](GetReport::Request&, GetReport::Response&) { return true; };
   const ros::ServiceServer service = node.advertiseService("/other/get_planning_scene", answer);
   const CheckStates::Response response = ShardedChecker({"/other"}, withPatience(0.0)).check(FakeNode::requestOf(1));
-  EXPECT_EQ(Status::UNAVAILABLE, response.status);
+  EXPECT_EQ(AnswerStatus::UNAVAILABLE, response.status);
   EXPECT_NE(std::string::npos, response.message.find("/other: ")) << response.message;
   EXPECT_NE(std::string::npos, response.message.find("another version of this package")) << response.message;
 }
@@ -161,14 +173,14 @@ TEST(ClientOfFakes, AConnectionThatTheNodeHasClosedIsMadeAnew)
   ShardedChecker checker({"/fake"}, withPatience(0.0));
   for (int run = 0; run < 2; ++run)
   {
-    const FakeNode node("/fake", {Status::OK});
+    const FakeNode node("/fake", {AnswerStatus::OK});
     EXPECT_TRUE(checker.check(FakeNode::requestOf(1)).success) << "run " << run;
   }
 }
 
 TEST(ClientOfFakes, ACancelledCallEndsSoon)
 {
-  const FakeNode node("/fake", {Status::BUSY});
+  const FakeNode node("/fake", {AnswerStatus::BUSY});
   ShardedChecker checker({"/fake"}, withPatience(1000.0));
   for (const std::size_t states : {std::size_t{1}, kManyStates})
   {

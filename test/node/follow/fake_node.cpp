@@ -6,6 +6,8 @@ namespace
 {
 bool giveScene(GetPlanningScene::Request& /*request*/, GetPlanningScene::Response& response)
 {
+  response.success = 1;
+  response.status = AnswerStatus::OK;
   response.scene.scene_revision = FakeNode::kRevision;
   response.scene.robot_state.joint_state.name = {"joint"};
   response.scene.robot_state.joint_state.position = {0.0};
@@ -15,7 +17,7 @@ bool giveScene(GetPlanningScene::Request& /*request*/, GetPlanningScene::Respons
 bool giveReport(GetReport::Request& /*request*/, GetReport::Response& response)
 {
   response.success = 1;
-  response.status = Status::OK;
+  response.status = AnswerStatus::OK;
   response.names = {"variables"};
   response.values = {1.0};
   return true;
@@ -49,7 +51,7 @@ bool FakeNode::check(CheckStates::Request& request, CheckStates::Response& respo
   const std::lock_guard<std::mutex> lock(mutex_);
   response.status = statuses_[std::min(calls_, statuses_.size() - 1)];
   ++calls_;
-  response.success = static_cast<std::uint8_t>(response.status == Status::OK);
+  response.success = static_cast<std::uint8_t>(response.status == AnswerStatus::OK);
   response.scene_revision = answered_revision_;
   if (response.success != 0)
     response.valid.assign(request.positions.size(), 1);

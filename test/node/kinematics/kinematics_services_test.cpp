@@ -4,6 +4,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <memory>
 #include <string>
 #include <thread>
@@ -31,7 +32,7 @@ struct KinematicsNode
     if (frame.name == "awaited")
       throw ShuttingDown("the lookup was stopped");
     if (frame.name != "camera")
-      throw Error("frame '" + frame.name + "' is not known");
+      throw NotKnownYet("frame '" + frame.name + "' is not known");
     return Eigen::Isometry3d(Eigen::Translation3d(0.25e-9 * static_cast<double>(frame.stamp), 0.0, 0.0));
   };
   std::atomic<int> lookups{0};
@@ -72,7 +73,7 @@ class KinematicsOfSlider : public testing::Test
   }
 
   /// The message of the answer, which must be an error with this status.
-  std::string errorFor(const ComputeIk::Request& request, std::uint8_t status = Status::INVALID_REQUEST)
+  std::string errorFor(const ComputeIk::Request& request, std::uint8_t status = AnswerStatus::INVALID_REQUEST)
   {
     const ComputeIk::Response response = node_.services.computeIk(request);
     EXPECT_FALSE(response.success);
@@ -108,7 +109,8 @@ TEST_F(KinematicsOfSlider, AFrameOfTfIsLookedUpOnceForEachStamp)
                  {poseAlongX(0.1, "camera", 1.0), poseAlongX(-0.1, "camera", 1.0), poseAlongX(0.1, "camera", 2.0)})),
              {0.35, 0.0, 0.15, 0.0, 0.6, 0.0});
   EXPECT_EQ(node_.lookups, 2);
-  EXPECT_EQ(errorFor(requestFor({poseAlongX(0.0), poseAlongX(0.0, "lamp")})), "pose 1: frame 'lamp' is not known");
+  EXPECT_EQ(errorFor(requestFor({poseAlongX(0.0), poseAlongX(0.0, "lamp")}), AnswerStatus::UNAVAILABLE),
+            "pose 1: frame 'lamp' is not known");
 }
 
 TEST_F(KinematicsOfSlider, AFrameThatMovesIsWhereTheCurrentStateHasItAndNotTheSeed)
@@ -134,6 +136,7 @@ TEST_F(KinematicsOfSlider, WhereTheStateIsNotKnownTheRequestMustNameIt)
   KinematicsNode fresh;
   ComputeIk::Request request = requestFor({poseAlongX(0.5)});
   const ComputeIk::Response unknown = fresh.services.computeIk(request);
+  EXPECT_EQ(AnswerStatus::UNAVAILABLE, unknown.status);
   EXPECT_EQ(unknown.message.rfind("the seed: no value for slide, turn; give values for all joints", 0), 0u)
       << unknown.message;
   request.seed_names = {"slide", "turn"};
@@ -141,11 +144,12 @@ TEST_F(KinematicsOfSlider, WhereTheStateIsNotKnownTheRequestMustNameIt)
   EXPECT_EQ(fresh.services.computeIk(request).counts, std::vector<std::uint32_t>{1});
   request.poses = {poseAlongX(0.5, "cart")};
   const ComputeIk::Response moving = fresh.services.computeIk(request);
+  EXPECT_EQ(AnswerStatus::UNAVAILABLE, moving.status);
   EXPECT_EQ(moving.message.rfind("pose 0: the robot's state is not known yet, so link 'cart' has no pose", 0), 0u)
       << moving.message;
   ComputeFk::Request forward;
   forward.frames = {"pole"};
-  EXPECT_FALSE(fresh.services.computeFk(forward).success);
+  EXPECT_EQ(AnswerStatus::UNAVAILABLE, fresh.services.computeFk(forward).status);
   forward.joint_names = {"slide", "turn"};
   forward.positions = {0.75, 0.0};
   EXPECT_NEAR(fresh.services.computeFk(forward).poses.at(0).pose.position.x, 0.75, 1e-15);
@@ -197,7 +201,81 @@ TEST_F(KinematicsOfSlider, ACarriedObjectReachesThePose)
 
 TEST_F(KinematicsOfSlider, ALookupThatIsStoppedIsNoErrorOfTheRequest)
 {
-  EXPECT_EQ(errorFor(requestFor({poseAlongX(0.0, "awaited")}), Status::SHUTTING_DOWN), "the lookup was stopped");
+  EXPECT_EQ(errorFor(requestFor({poseAlongX(0.0, "awaited")}), AnswerStatus::SHUTTING_DOWN), "the lookup was stopped");
+}
+
+/// Sends the request again while the node is busy with the requests of others.
+ComputeIk::Response untilAdmitted(KinematicsServices& services, const ComputeIk::Request& request)
+{
+  for (;;)
+    if (ComputeIk::Response response = services.computeIk(request); response.status != AnswerStatus::BUSY)
+      return response;
+}
+
+/// Requests at the same time, one more than the node answers or queues.
+TEST(KinematicsOfABusyNode, AreRefusedWithTheStatusBusy)
+{
+  KinematicsOptions options;
+  options.max_waiting = 0;
+  KinematicsNode node;
+  KinematicsServices busy(
+      node.store, {node.lookup},
+      [](std::shared_ptr<const PlanningScene> scene) { return std::make_shared<CpuChecker>(std::move(scene)); },
+      [](const std::shared_ptr<const PlanningScene>& scene) { return std::make_shared<StateInspector>(scene); },
+      node.memory, options);
+  node.store.updateState({{"slide", -0.5}, {"turn", 0.25}});
+  ComputeIk::Request endless;
+  endless.group = "drive";
+  endless.link = "pole";
+  endless.poses.resize(1);
+  endless.poses[0].pose.position.x = 50.0;  // too far
+  endless.poses[0].pose.orientation.w = 1.0;
+  endless.max_attempts = 1000000;
+  std::vector<std::future<ComputeIk::Response>> running;
+  for (std::size_t i = 0; i < KinematicsServices::kSearchingRequests; ++i)
+    running.push_back(std::async(std::launch::async, [&busy, endless] { return untilAdmitted(busy, endless); }));
+  ComputeCartesianPath::Request line;
+  line.group = "drive";
+  line.link = "pole";
+  line.waypoints.resize(1);
+  line.waypoints[0].pose.position.x = 0.5;
+  line.waypoints[0].pose.orientation.w = 1.0;
+  while (busy.computeCartesianPath(line).status != AnswerStatus::BUSY)
+    std::this_thread::yield();
+  endless.max_attempts = 1;
+  EXPECT_EQ(AnswerStatus::BUSY, busy.computeIk(endless).status);
+  busy.stop();
+  for (auto& answer : running)
+    EXPECT_EQ(AnswerStatus::SHUTTING_DOWN, answer.get().status);
+  EXPECT_EQ(AnswerStatus::SHUTTING_DOWN, busy.computeCartesianPath(line).status);
+  ComputeFk::Request forward;
+  forward.frames = {"pole"};
+  EXPECT_EQ(AnswerStatus::SHUTTING_DOWN, busy.computeFk(forward).status);
+}
+
+/// An octomap or a mesh may be too large for a checker. The request does not bring it.
+TEST(KinematicsOfASceneThatCannotBeChecked, BlameTheNodeAndNotTheRequest)
+{
+  KinematicsNode node;
+  KinematicsServices services(node.store, {node.lookup},
+                              [](const std::shared_ptr<const PlanningScene>&) -> std::shared_ptr<StateChecker>
+                              { throw Error("the scene has too many triangles"); },
+                              {}, node.memory, {});
+  node.store.updateState({{"slide", -0.5}, {"turn", 0.25}});
+  ComputeIk::Request request;
+  request.group = "drive";
+  request.link = "pole";
+  request.poses.resize(1);
+  request.poses[0].pose.orientation.w = 1.0;
+  EXPECT_EQ(AnswerStatus::INTERNAL_ERROR, services.computeIk(request).status);
+  ComputeCartesianPath::Request line;
+  line.group = request.group;
+  line.link = request.link;
+  line.waypoints = request.poses;
+  EXPECT_EQ(AnswerStatus::INTERNAL_ERROR, services.computeCartesianPath(line).status);
+  request.scene_diff.is_diff = request.scene_diff.robot_state.is_diff = 1;
+  request.scene_diff.name = "changed by the request";
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, services.computeIk(request).status);
 }
 
 TEST_F(KinematicsOfSlider, StoppingEndsARunningSearch)
@@ -212,8 +290,8 @@ TEST_F(KinematicsOfSlider, StoppingEndsARunningSearch)
   caller.join();
   EXPECT_LT(std::chrono::steady_clock::now() - stopped, std::chrono::seconds(5));
   EXPECT_FALSE(response.success);
-  EXPECT_EQ(Status::SHUTTING_DOWN, response.status) << response.message;
-  EXPECT_EQ(errorFor(requestFor({poseAlongX(0.5)}), Status::SHUTTING_DOWN),
+  EXPECT_EQ(AnswerStatus::SHUTTING_DOWN, response.status) << response.message;
+  EXPECT_EQ(errorFor(requestFor({poseAlongX(0.5)}), AnswerStatus::SHUTTING_DOWN),
             "shutting down: the request was not answered");
 }
 }  // namespace

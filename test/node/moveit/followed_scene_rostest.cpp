@@ -337,7 +337,7 @@ TEST_F(Following, WithoutThePublisherRequestsAreRefused)
   PlanMotion plan;
   ASSERT_TRUE(callPersistently(node_->service("plan"), plan));
   EXPECT_NE(std::string::npos, plan.response.message.find("is not known"));
-  EXPECT_EQ(Status::UNAVAILABLE, plan.response.status);
+  EXPECT_EQ(AnswerStatus::UNAVAILABLE, plan.response.status);
   changeObject("another");
   group_.start();
   EXPECT_EQ("", remainingDifference());

@@ -81,13 +81,13 @@ TEST_F(Parameters, CarriedObjectsHaveTheirLinksPaddingAndTheirOwn)
 TEST_F(Parameters, ExceededLimitsAreNamed)
 {
   const auto response = call<CheckStates>("check_states", stateRequest(std::vector<double>(202, 0.0)));
-  EXPECT_FALSE(response.success);
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, response.status);
   EXPECT_NE(std::string::npos, response.message.find("limits/request_states")) << response.message;
 
   CheckStates::Request inspected = stateRequest(std::vector<double>(20, 0.0));
   inspected.clearance = true;
   const auto refused = call<CheckStates>("check_states", inspected);
-  EXPECT_FALSE(refused.success);
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, refused.status);
   EXPECT_NE(std::string::npos, refused.message.find("limits/inspected_states")) << refused.message;
 
   CheckStates::Request allowing = stateRequest(free_state);
@@ -95,7 +95,7 @@ TEST_F(Parameters, ExceededLimitsAreNamed)
   allowing.allowed_collision_matrix.entry_values.resize(1);
   allowing.allowed_collision_matrix.entry_values[0].enabled = {0};
   const auto long_name = call<CheckStates>("check_states", allowing);
-  EXPECT_FALSE(long_name.success);
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, long_name.status);
   EXPECT_NE(std::string::npos, long_name.message.find("limits/name_length")) << long_name.message;
 
   CheckMotions::Request motion;

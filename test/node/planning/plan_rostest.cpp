@@ -11,6 +11,8 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/motion_checker.h"
 #include "node/node_client.h"
+#include "node/planning/plan_service.h"
+#include "scene/slider_robot.h"
 
 namespace gpu_planning_scene::core
 {
@@ -55,7 +57,7 @@ class Planning : public RunningNode
   static void expectSolved(const Response& response, const std::vector<double>& start, const std::vector<double>& goal)
   {
     ASSERT_TRUE(response.success) << response.message;
-    EXPECT_EQ(response.status, Status::OK);
+    EXPECT_EQ(response.status, AnswerStatus::OK);
     EXPECT_EQ(response.trajectory.joint_names, (std::vector<std::string>{"slide", "turn"}));
     ASSERT_GT(response.trajectory.points.size(), 2u);
     EXPECT_EQ(response.trajectory.points.front().positions, start);
@@ -106,7 +108,7 @@ TEST_F(Planning, OptimizesForAsLongAsTheRequestSays)
   expectSolved(response, wanted.start, wanted.goals);
   EXPECT_GE(response.simplification_time, 0.2);
   wanted.optimize = 1e6;
-  expectStatus(wanted, Status::INVALID_REQUEST, "optimize is 1000000.000000 s; it must be from 0 to");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "optimize is 1000000.000000 s; it must be from 0 to");
 }
 
 TEST_F(Planning, HasTimesIfTheRequestWantsThem)
@@ -142,7 +144,7 @@ TEST_F(Planning, HasTimesIfTheRequestWantsThem)
   for (const double factor : {-0.5, 1.5})
   {
     wanted.max_velocity_scaling_factor = factor;
-    expectStatus(wanted, Status::INVALID_REQUEST, "max_velocity_scaling_factor is ");
+    expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "max_velocity_scaling_factor is ");
   }
 }
 
@@ -158,7 +160,7 @@ TEST_F(Planning, InAChangedSceneOfTheRequestLeavesTheSceneAsItIs)
   EXPECT_EQ(before.scene_revision, response.scene_revision);
   EXPECT_EQ(before, scene());
   wanted.scene_diff.is_diff = 0;
-  expectStatus(wanted, Status::INVALID_REQUEST, "scene_diff: is_diff is false");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "scene_diff: is_diff is false");
   wanted.scene_diff = PlanningSceneMessage();
   expectSolved(plan(wanted), wanted.start, wanted.goals);
 
@@ -192,9 +194,74 @@ TEST_F(Planning, PlannerFaultsAreNotErrorsOfTheRequest)
 {
   PlanMotion::Request wanted = request();
   wanted.planner = "broken_planner/Broken";
-  expectStatus(wanted, Status::INTERNAL_ERROR, "a planner that is broken");
+  expectStatus(wanted, AnswerStatus::INTERNAL_ERROR, "a planner that is broken");
   wanted.planner = "planner_plugin/BKPIECE";
   expectSolved(plan(wanted), wanted.start, wanted.goals);
+}
+
+/// A PlanService in this process, with parameters of its own below ~NAME.
+class OwnPlanService
+{
+ public:
+  explicit OwnPlanService(const std::string& name, const PlanServiceOptions& options = {})
+    : own(ros::NodeHandle("~"), name),
+      service(
+          own, store, {},
+          [](std::shared_ptr<const PlanningScene> scene) { return std::make_shared<CpuChecker>(std::move(scene)); },
+          memory, [](const std::shared_ptr<const ShownPlan>&) {}, options)
+  {
+  }
+
+  ros::NodeHandle own;
+  SceneStore store{sliderAndWall(), {}, {}};
+  MemoryGuard memory{0};
+  PlanService service;
+};
+
+TEST_F(Planning, AWrongDefaultPlannerIsAFaultOfTheNode)
+{
+  ros::NodeHandle("~").setParam("wrong/planners/planner_configs/Mistyped/type", "geometric::RRTConnekt");
+  ros::NodeHandle("~").setParam("wrong/planners/drive/default_planner_config", "Mistyped");
+  OwnPlanService node("wrong");
+  PlanMotion::Request wanted = request();
+  wanted.goals = {0.5, kTurned};
+  for (const std::string name : {"", "Mistyped"})
+  {
+    wanted.planner = name;
+    const Response of_node = node.service.plan(wanted);
+    EXPECT_EQ(AnswerStatus::INTERNAL_ERROR, of_node.status);
+    EXPECT_EQ(0u, of_node.message.find("~planners: ")) << of_node.message;
+  }
+  wanted.planner = "geometric::RRTConnekt";
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, node.service.plan(wanted).status);
+  wanted.planner = "geometric::RRTConnect";
+  EXPECT_EQ(AnswerStatus::OK, node.service.plan(wanted).status);
+}
+
+TEST_F(Planning, ABusyAndAnEndingNodeSaySo)
+{
+  PlanServiceOptions options;
+  options.at_once = 1;
+  options.max_waiting = 0;
+  options.max_seconds = 1000.0;
+  OwnPlanService node("crowded", options);
+  PlanMotion::Request wanted = request();
+  wanted.goals = {1.5, 0.0};  // behind the wall
+  wanted.allowed_planning_time = 1000.0;
+  Response long_one;
+  const auto plan_long = [&node, wanted, &long_one]
+  {
+    do
+      long_one = node.service.plan(wanted);
+    while (long_one.status == AnswerStatus::BUSY);  // the request below came first
+  };
+  std::thread client(plan_long);
+  wanted.goals = {-0.9, kTurned};
+  EXPECT_TRUE(becomes([&] { return node.service.plan(wanted).status == AnswerStatus::BUSY; }));
+  node.service.stop();
+  client.join();
+  EXPECT_EQ(AnswerStatus::SHUTTING_DOWN, long_one.status) << long_one.message;
+  EXPECT_EQ(AnswerStatus::SHUTTING_DOWN, node.service.plan(wanted).status);
 }
 
 TEST_F(Planning, TakesTheDefaultOfTheGroupAndParametersOfTheRequest)
@@ -206,19 +273,19 @@ TEST_F(Planning, TakesTheDefaultOfTheGroupAndParametersOfTheRequest)
   wanted.parameters[0].value = "0.2";
   expectSolved(plan(wanted), wanted.start, wanted.goals);
   wanted.parameters[0].key = "reach";
-  expectStatus(wanted, Status::INVALID_REQUEST, "has no parameter 'reach'; it has");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "has no parameter 'reach'; it has");
   wanted.parameters[0].key = "range";
   wanted.parameters[0].value = "far";
-  expectStatus(wanted, Status::INVALID_REQUEST, "parameter range of planner RRTConnect cannot be 'far'");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "parameter range of planner RRTConnect cannot be 'far'");
   // Values that would keep a planner busy far beyond its time.
   wanted.parameters[0].value = "1e-9";
-  expectStatus(wanted, Status::INVALID_REQUEST, "parameter range is 1e-9; it must be 0");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "parameter range is 1e-9; it must be 0");
   wanted.planner = "geometric::BITstar";
   wanted.parameters[0].key = "samples_per_batch";
   for (const std::string count : {"1000000", "-1", "inf"})
   {
     wanted.parameters[0].value = count;
-    expectStatus(wanted, Status::INVALID_REQUEST,
+    expectStatus(wanted, AnswerStatus::INVALID_REQUEST,
                  "samples_per_batch is " + count + "; it must be from 0 to 1000 (limits/planner_parameter)");
   }
   wanted.parameters[0].value = "50";
@@ -227,7 +294,7 @@ TEST_F(Planning, TakesTheDefaultOfTheGroupAndParametersOfTheRequest)
   wanted.planner = "geometric::RRTstar";
   wanted.parameters[0].key = "ordered_sampling";
   wanted.parameters[0].value = "1";
-  expectStatus(wanted, Status::INVALID_REQUEST, "has no parameter 'ordered_sampling'");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "has no parameter 'ordered_sampling'");
 }
 
 TEST_F(Planning, ServesTwoClientsAtOnce)
@@ -329,10 +396,11 @@ TEST_F(Planning, StartAndGoalMayBeStatesOfTheSrdf)
   wanted.named_goal = "drive/right";
   expectSolved(plan(wanted), {-1.0, 0.8}, {1.0, 0.8});
   wanted.named_goal = "home";
-  expectStatus(wanted, Status::INVALID_REQUEST, "the SRDF has no state 'home'; its states: drive/left, drive/right");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST,
+               "the SRDF has no state 'home'; its states: drive/left, drive/right");
   wanted.named_goal = "right";
   wanted.start_names = {"slide"};
-  expectStatus(wanted, Status::INVALID_REQUEST,
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST,
                "named_start is 'left', but start_names is not empty; give one of the two");
   // A state of both joints counts for the group's joint.
   wanted.named_start.clear();
@@ -358,57 +426,57 @@ TEST_F(Planning, RefusesInvalidRequests)
 {
   PlanMotion::Request wanted = request();
   wanted.group = "crane";
-  expectStatus(wanted, Status::INVALID_REQUEST, "crane");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "crane");
   wanted = request();
   wanted.planner = "geometric::Best";
-  expectStatus(wanted, Status::INVALID_REQUEST,
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST,
                "planner 'geometric::Best' is neither in the planner_configs of ~planners nor a plugin");
   wanted = request();
   wanted.group = "mast";
   wanted.goal_names = {"turn"};
   wanted.goals = {0.0};
   wanted.planner = "RRTConnectkConfigDefault";
-  expectStatus(wanted, Status::INVALID_REQUEST, "is not among the planner_configs of group 'mast'");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "is not among the planner_configs of group 'mast'");
   wanted.planner.clear();
   wanted.goal_names = {"slide"};
-  expectStatus(wanted, Status::INVALID_REQUEST, "goal_names has slide, which group 'mast' does not plan for");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "goal_names has slide, which group 'mast' does not plan for");
   wanted = request();
   wanted.goals = {1.0, NAN};
-  expectStatus(wanted, Status::INVALID_REQUEST, "turn");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "turn");
   wanted.goals.clear();
-  expectStatus(wanted, Status::INVALID_REQUEST, "goals is empty, but goal_names names slide, turn");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "goals is empty, but goal_names names slide, turn");
   wanted.goal_names.clear();
-  expectStatus(wanted, Status::INVALID_REQUEST, "goal_names is empty");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "goal_names is empty");
   wanted.goal_names = request().goal_names;
   wanted.goals = {1, 0, 1, 0, 1, 0, 1, 0};
-  expectStatus(wanted, Status::INVALID_REQUEST, "4 goals are more than 3 (limits/goals)");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "4 goals are more than 3 (limits/goals)");
   wanted = request();
   wanted.start = {-1, 0, -1, 0};
-  expectStatus(wanted, Status::INVALID_REQUEST, "start has 2 rows");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "start has 2 rows");
   wanted.start.clear();
-  expectStatus(wanted, Status::INVALID_REQUEST, "start is empty, but start_names names slide, turn");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "start is empty, but start_names names slide, turn");
   wanted = request();
   wanted.start_names.clear();
-  expectStatus(wanted, Status::INVALID_REQUEST, "start_names is empty");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "start_names is empty");
   wanted = request();
   wanted.workspace_parameters.min_corner.x = 1.0;
-  expectStatus(wanted, Status::INVALID_REQUEST,
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST,
                "workspace_parameters: the corners must be finite, and min_corner must");
   wanted.workspace_parameters.max_corner.x = 2.0;
   wanted.workspace_parameters.header.frame_id = "cart";
-  expectStatus(wanted, Status::INVALID_REQUEST,
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST,
                "workspace_parameters are in the frame 'cart'; give them in the planning");
   wanted = request();
   wanted.allowed_planning_time = 9.0;
-  expectStatus(wanted, Status::INVALID_REQUEST, "the limit is 8.0");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "the limit is 8.0");
   wanted.allowed_planning_time = -1.0;
-  expectStatus(wanted, Status::INVALID_REQUEST, "the planning time is -1.0");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "the planning time is -1.0");
   wanted = request();
   wanted.motion_rule = "hope";
-  expectStatus(wanted, Status::INVALID_REQUEST, "the motion rule is 'hope'");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "the motion rule is 'hope'");
   wanted = request();
   wanted.resolution = -0.1;
-  expectStatus(wanted, Status::INVALID_REQUEST, "the revolute step of motions is -0.1");
+  expectStatus(wanted, AnswerStatus::INVALID_REQUEST, "the revolute step of motions is -0.1");
 }
 
 TEST_F(Planning, DrawsThePath)

@@ -121,20 +121,22 @@ TEST_F(Frames, AFrameThatComesWithinTheTimeoutIsWaitedFor)
 
 TEST_F(Frames, AFrameThatNobodyKnowsIsAClearErrorAfterTheTimeout)
 {
-  expectRefusal(diffWith(boxIn("nowhere", farAway())), "frame 'nowhere'");
+  expectRefusal(diffWith(boxIn("nowhere", farAway())), "frame 'nowhere'", AnswerStatus::UNAVAILABLE);
   expectRefusal(diffWith(boxIn("nowhere_at_all", farAway())),
                 "frame 'nowhere_at_all' is neither in the scene nor on tf; name a link, an object, OBJECT/SUBFRAME, a "
-                "fixed frame of the scene, or a frame of tf (waited 0.5 s: tf_timeout)");
+                "fixed frame of the scene, or a frame of tf (waited 0.5 s: tf_timeout)",
+                AnswerStatus::UNAVAILABLE);
 }
 
 TEST_F(Frames, AMistypedFrameIsAnsweredWithTheNearestName)
 {
-  expectRefusal(diffWith(boxIn(tip + "x", farAway())),
-                "is neither in the scene nor on tf; did you mean '" + tip + "'?");
+  expectRefusal(diffWith(boxIn(tip + "x", farAway())), "is neither in the scene nor on tf; did you mean '" + tip + "'?",
+                AnswerStatus::UNAVAILABLE);
   tf2_ros::StaticTransformBroadcaster broadcaster;
   broadcaster.sendTransform(transform("overhead_camera", farAway()));
   ros::WallDuration(0.5).sleep();
-  expectRefusal(diffWith(boxIn("overhaed_camera", farAway())), "did you mean 'overhead_camera'?");
+  expectRefusal(diffWith(boxIn("overhaed_camera", farAway())), "did you mean 'overhead_camera'?",
+                AnswerStatus::UNAVAILABLE);
 }
 
 TEST_F(Frames, AFrameThatTfDoesNotConnectOrHasNoLongerIsNamed)
@@ -155,10 +157,13 @@ TEST_F(Frames, AFrameThatTfDoesNotConnectOrHasNoLongerIsNamed)
   ros::WallDuration(0.5).sleep();
   expectRefusal(diffWith(boxIn("palm_tree", farAway())),
                 "frame 'palm_tree' and the planning frame '" + robot->planningFrame() +
-                    "' are on tf, but not connected; publish the transform between them");
+                    "' are on tf, but not connected; publish the transform between them",
+                AnswerStatus::UNAVAILABLE);
   CollisionObject box = boxIn("tram", farAway());
   box.header.stamp = now - ros::Duration(100.0);
   expectRefusal(diffWith(box), "give a time that tf still has, or 0 for the latest");
+  box.header.stamp = now + ros::Duration(100.0);
+  expectRefusal(diffWith(box), "give a time that tf still has, or 0 for the latest", AnswerStatus::UNAVAILABLE);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

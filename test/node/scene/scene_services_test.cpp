@@ -38,7 +38,7 @@ TEST(SceneServices, AProcessThatUsesTooMuchMemoryCanStillBeEmptied)
   object.primitives[0].type = shape_msgs::SolidPrimitive::BOX;
   object.primitives[0].dimensions = {0.1, 0.1, 0.1};
   const ApplyPlanningScene::Response refused = scenes.apply(asked);
-  EXPECT_EQ(Status::UNAVAILABLE, refused.status);
+  EXPECT_EQ(AnswerStatus::OUT_OF_MEMORY, refused.status);
   EXPECT_NE(std::string::npos, refused.message.find("limits/memory")) << refused.message;
   object.primitives.clear();
   object.id = "wall";
@@ -47,6 +47,28 @@ TEST(SceneServices, AProcessThatUsesTooMuchMemoryCanStillBeEmptied)
   EXPECT_TRUE(removed.success) << removed.message;
   EXPECT_TRUE(store.snapshot().scene->objects.empty());
   EXPECT_TRUE(scenes.clear().success);
+}
+
+TEST(SceneServices, AnObjectAtALinkWhoseStateIsNotKnownYetMayBeAddedLater)
+{
+  SceneStore store{PlanningScene(sliderRobot()), {}, {}};
+  const MemoryGuard memory(0);
+  SceneServices scenes(store, nullptr, memory);
+  ApplyPlanningScene::Request add;
+  add.scene.is_diff = add.scene.robot_state.is_diff = 1;
+  CollisionObject& ball = add.scene.world.collision_objects.emplace_back();
+  ball.id = "ball";
+  ball.header.frame_id = "cart";
+  ball.pose.orientation.w = 1.0;
+  ball.primitives.resize(1);
+  ball.primitives[0].type = shape_msgs::SolidPrimitive::SPHERE;
+  ball.primitives[0].dimensions = {0.1};
+  const ApplyPlanningScene::Response early = scenes.apply(add);
+  EXPECT_EQ(AnswerStatus::UNAVAILABLE, early.status) << early.message;
+  EXPECT_NE(std::string::npos, early.message.find("the robot's state is not known yet")) << early.message;
+  scenes.take(jointState({"slide", "turn"}, {0.0, 0.0}));
+  const ApplyPlanningScene::Response later = scenes.apply(add);
+  EXPECT_EQ(AnswerStatus::OK, later.status) << later.message;
 }
 
 TEST(SceneServices, MentionAnUnknownBaseWhereAnObjectIsPlacedAtALink)
@@ -98,6 +120,7 @@ TEST(SceneServices, NamesInAnswersAreShortAndOnOneLine)
   change.scene.world.collision_objects[0].operation = 9;
   const ApplyPlanningScene::Response refused = scenes.apply(change);
   EXPECT_FALSE(refused.success);
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, refused.status);
   EXPECT_NE(std::string::npos, refused.message.find("'bo x': unknown operation")) << refused.message;
 }
 

@@ -226,7 +226,7 @@ TEST_F(Topics, MarkersShowWhatCollidesInRedAndTheBoxesOfATreeLevel)
   EXPECT_TRUE(call<ShowTreeLevel>("show_tree_level", request).success);
   EXPECT_TRUE(becomes([&] { return drawn("tree") > 0; }));
   request.body = "no such body";
-  EXPECT_FALSE(call<ShowTreeLevel>("show_tree_level", request).success);
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, call<ShowTreeLevel>("show_tree_level", request).status);
   request = ShowTreeLevel::Request();
   request.level = -1;
   EXPECT_TRUE(call<ShowTreeLevel>("show_tree_level", request).success);

@@ -337,7 +337,7 @@ TEST_F(Watch, ATrajectoryThatHasEndedIsNotWatchedAnyMore)
   EXPECT_TRUE(last().ids.empty());
   const auto stopped = stopWatching("short");
   EXPECT_FALSE(stopped.success);
-  EXPECT_EQ(stopped.status, Status::INVALID_REQUEST);
+  EXPECT_EQ(stopped.status, AnswerStatus::INVALID_REQUEST);
 }
 
 TEST_F(Watch, ARobotBesideItsTrajectoryIsNotFree)
@@ -375,7 +375,7 @@ TEST_F(Watch, WrongRequestsAreRefusedAndNothingElseIsWatched)
   {
     const auto response = watch(request);
     EXPECT_FALSE(response.success) << reason;
-    EXPECT_EQ(response.status, Status::INVALID_REQUEST) << response.message;
+    EXPECT_EQ(response.status, AnswerStatus::INVALID_REQUEST) << response.message;
     EXPECT_NE(response.message.find(reason), std::string::npos) << response.message;
   };
   refuses(trajectory(""), "no name");
