@@ -201,13 +201,13 @@ MotionOutlook outlookOf(const MotionChecker& checker, const RobotModel& robot, c
   // A robot that stands is a motion too.
   const std::size_t parts = std::max<std::size_t>(motion.seconds.size() - 1, 1);
   const double* ends = motion.seconds.size() > 1 ? rows + width : rows;
-  const auto isValid = [](const MotionVerdict& verdict) { return verdict.valid; };
+  const auto is_valid = [](const MotionVerdict& verdict) { return verdict.valid; };
 
   MotionOutlook outlook;
   const std::vector<MotionVerdict> verdicts = checker.check(rows, ends, parts, MotionQuery::Valid, is_over);
   if (has_stopped)
     throw Cancelled();
-  const auto bad = std::find_if_not(verdicts.begin(), verdicts.end(), isValid);
+  const auto bad = std::find_if_not(verdicts.begin(), verdicts.end(), is_valid);
   if (bad == verdicts.end())
   {
     outlook.free = true;

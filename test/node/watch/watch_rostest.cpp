@@ -218,8 +218,8 @@ TEST_F(Watch, TheRobotStopsBeforeABoxThatMovesIntoItsWay)
   EXPECT_GT(last().collision_in, 0.5) << "the robot stands, so the rest is still to come";
   EXPECT_GE(simulated.cancelledUntil(), before);
   EXPECT_LT(simulated.cancelledUntil(), before + 1.0) << "a goal that is sent now is not cancelled";
-  for (double time = 0.0; time <= simulated.time(); time += 0.01)
-    ASSERT_EQ(check(simulated.stateAt(time)).valid.at(0), 1) << time;
+  for (int hundredths = 0; hundredths <= 100.0 * simulated.time(); ++hundredths)
+    ASSERT_EQ(check(simulated.stateAt(0.01 * hundredths)).valid.at(0), 1) << 0.01 * hundredths;
   EXPECT_EQ(check(simulated.stateAt(4.5)).valid.at(0), 0) << "it would have hit the box";
 
   apply(diffWith(objectOperation("box", CollisionObject::REMOVE)));

@@ -64,11 +64,11 @@ std::shared_ptr<const PlanningScene> crossing()
 class Crossing : public testing::Test
 {
  protected:
-  const std::shared_ptr<const PlanningScene> scene = crossing();
-  const RobotModel& robot = *scene->robot;
-  const MotionChecker checker = checkerOf(scene);
-  const int east = robot.variableIndex("east");
-  const int north = robot.variableIndex("north");
+  const std::shared_ptr<const PlanningScene> scene_ = crossing();
+  const RobotModel& robot_ = *scene_->robot;
+  const MotionChecker checker_ = checkerOf(scene_);
+  const int east_ = robot_.variableIndex("east");
+  const int north_ = robot_.variableIndex("north");
 
   /// From -1 m to 1 m in two seconds, beginning at `start`.
   static WatchedTrajectory along(int column, double start) { return {{column}, {{start, start + 2.0}, {-1.0, 1.0}}}; }
@@ -76,63 +76,63 @@ class Crossing : public testing::Test
   MotionOutlook outlook(const WatchedTrajectory& a, const WatchedTrajectory& b, double from = 0.0,
                         double delay_of_b = 0.0) const
   {
-    const TimedRows motion = motionOfAll(robot, {&a, &b}, {0.0, delay_of_b}, {-1.0, -1.0}, from);
-    return outlookOf(checker, robot, motion);
+    const TimedRows motion = motionOfAll(robot_, {&a, &b}, {0.0, delay_of_b}, {-1.0, -1.0}, from);
+    return outlookOf(checker_, robot_, motion);
   }
 };
 
 TEST_F(Crossing, TwoTrajectoriesCollideOnlyIfTheyAreAtTheSamePlaceAtTheSameTime)
 {
-  const MotionOutlook together = outlook(along(east, 0.0), along(north, 0.0));
+  const MotionOutlook together = outlook(along(east_, 0.0), along(north_, 0.0));
   EXPECT_FALSE(together.free);
   EXPECT_NE(together.colliding, kNoPair);
   expectUntil(together, 0.8);  // the cubes touch where both are 0.2 m before the origin
   EXPECT_LE(together.free_until, together.collision);
-  const MotionOutlook later = outlook(along(east, 0.0), along(north, 0.5));
+  const MotionOutlook later = outlook(along(east_, 0.0), along(north_, 0.5));
   EXPECT_TRUE(later.free);
   EXPECT_EQ(later.free_until, 2.5);
   EXPECT_EQ(later.collision, kInfinity);
   EXPECT_EQ(later.brake_by, kInfinity);
-  EXPECT_FALSE(outlook(along(east, 0.0), along(north, 0.5), 0.0, -0.5).free) << "a delay moves a trajectory in time";
+  EXPECT_FALSE(outlook(along(east_, 0.0), along(north_, 0.5), 0.0, -0.5).free) << "a delay moves a trajectory in time";
 }
 
 TEST_F(Crossing, WhatHasPassedDoesNotCount)
 {
-  EXPECT_FALSE(outlook(along(east, 0.0), along(north, 0.0), 1.15).free);
-  EXPECT_TRUE(outlook(along(east, 0.0), along(north, 0.0), 1.25).free);
+  EXPECT_FALSE(outlook(along(east_, 0.0), along(north_, 0.0), 1.15).free);
+  EXPECT_TRUE(outlook(along(east_, 0.0), along(north_, 0.0), 1.25).free);
 }
 
 TEST_F(Crossing, ADelayedTrajectoryHasItsRowsLater)
 {
-  const WatchedTrajectory a = along(east, 0.5);  // to 2.5 s
-  const TimedRows early = motionOfAll(robot, {&a}, {-1.0}, {-1.0, -1.0}, 0.0);
+  const WatchedTrajectory a = along(east_, 0.5);  // to 2.5 s
+  const TimedRows early = motionOfAll(robot_, {&a}, {-1.0}, {-1.0, -1.0}, 0.0);
   EXPECT_EQ(early.seconds, (std::vector<double>{0.0, 1.5}));
-  EXPECT_NEAR(early.values[static_cast<std::size_t>(east)], -0.5, 1e-12) << "where the trajectory is at 1 s";
-  const TimedRows late = motionOfAll(robot, {&a}, {1.0}, {-1.0, -1.0}, 0.0);
+  EXPECT_NEAR(early.values[static_cast<std::size_t>(east_)], -0.5, 1e-12) << "where the trajectory is at 1 s";
+  const TimedRows late = motionOfAll(robot_, {&a}, {1.0}, {-1.0, -1.0}, 0.0);
   EXPECT_EQ(late.seconds, (std::vector<double>{0.0, 1.5, 3.5}));
 }
 
 TEST_F(Crossing, ATimeThatIsNotFiniteIsRefused)
 {
-  const WatchedTrajectory a = along(east, 0.0);
-  EXPECT_THROW(motionOfAll(robot, {&a}, {0.0}, {-1.0, -1.0}, std::nan("")), Error);
-  EXPECT_THROW(motionOfAll(robot, {&a}, {kInfinity}, {-1.0, -1.0}, 0.0), Error);
+  const WatchedTrajectory a = along(east_, 0.0);
+  EXPECT_THROW(motionOfAll(robot_, {&a}, {0.0}, {-1.0, -1.0}, std::nan("")), Error);
+  EXPECT_THROW(motionOfAll(robot_, {&a}, {kInfinity}, {-1.0, -1.0}, 0.0), Error);
 }
 
 TEST_F(Crossing, ATrajectoryStandsBeforeItsStartAndAfterItsEnd)
 {
-  const WatchedTrajectory into_the_way = {{north}, {{0.0, 1.0}, {-1.0, 0.0}}};
-  const MotionOutlook blocked = outlook(along(east, 2.0), into_the_way);
+  const WatchedTrajectory into_the_way = {{north_}, {{0.0, 1.0}, {-1.0, 0.0}}};
+  const MotionOutlook blocked = outlook(along(east_, 2.0), into_the_way);
   expectUntil(blocked, 2.8);  // north stands at the origin from 1 s on
-  const WatchedTrajectory out_of_the_way = {{north}, {{3.0, 4.0}, {0.0, 1.0}}};
-  expectUntil(outlook(along(east, 0.0), out_of_the_way), 0.8);  // north waits at the origin
+  const WatchedTrajectory out_of_the_way = {{north_}, {{3.0, 4.0}, {0.0, 1.0}}};
+  expectUntil(outlook(along(east_, 0.0), out_of_the_way), 0.8);  // north waits at the origin
 }
 
 /// A cart that moves towards a wall.
 class Braking : public testing::Test
 {
  protected:
-  Braking() : scene(wallBefore({})) {}
+  Braking() : scene_(wallBefore({})) {}
 
   static std::shared_ptr<const PlanningScene> wallBefore(const RobotModelOptions& options)
   {
@@ -151,9 +151,9 @@ class Braking : public testing::Test
     return std::make_shared<const PlanningScene>(made);
   }
 
-  MotionOutlook outlook(const TimedRows& motion) const { return outlookOf(checkerOf(scene), *scene->robot, motion); }
+  MotionOutlook outlook(const TimedRows& motion) const { return outlookOf(checkerOf(scene_), *scene_->robot, motion); }
 
-  std::shared_ptr<const PlanningScene> scene;
+  std::shared_ptr<const PlanningScene> scene_;
 };
 
 TEST_F(Braking, BeginsHalfTheBrakingTimeBeforeTheLastFreeState)
@@ -169,7 +169,7 @@ TEST_F(Braking, TakesTheLimitOfTheJoint)
   RobotModelOptions options;
   options.joint_limits = {JointLimits{"slide"}};
   options.joint_limits[0].max_acceleration = 2.0;
-  scene = wallBefore(options);
+  scene_ = wallBefore(options);
   const MotionOutlook found = outlook({{0.0, 2.0}, {0.0, 2.0}});
   EXPECT_NEAR(found.brake_by, found.free_until - 0.25, 1e-12);
 }
