@@ -55,6 +55,49 @@ struct NearestPairs
   NearestPair self;
 };
 
+/// Which distances are computed.
+struct DistanceQuery
+{
+  /// Metres beyond the required distance: pairs that are not nearer are left out. Infinity: no pair is left out.
+  double range = std::numeric_limits<double>::infinity();
+  /// True: only the nearest pair of each link and attached object. It takes much less time than all pairs.
+  bool nearest_of_each_body = false;
+  bool gradients = true;
+};
+
+/// The distance of a pair of bodies.
+struct BodyDistance
+{
+  BodyPair bodies;  ///< body indices; the first is a link or an attached object
+  /// Metres beyond the required distance, as NearestPair::distance. In collision it is minus the depth of the pair's
+  /// deepest contact: the length of a translation that separates the bodies. For bodies of several shapes or that are
+  /// not convex, a shorter translation may exist.
+  double distance;
+  /// In collision: no translation shorter than this separates the bodies; 0: no such length is known. NaN: no
+  /// collision.
+  double depth_at_least = std::numeric_limits<double>::quiet_NaN();
+  /// As NearestPair::points, in the order of the bodies.
+  std::array<Eigen::Vector3d, 2> points;
+  /// Unit length, in the planning frame, from the first body to the second. If the second body moves along it, the
+  /// distance grows. NaN if the surfaces touch without a collision: such a distance has no direction.
+  Eigen::Vector3d normal;
+};
+
+/// The distances of states.
+struct BodyDistances
+{
+  /// One more than the states: the pairs of state i are those from first[i] to before first[i + 1].
+  std::vector<std::size_t> first;
+  /// Ascending by their bodies. With nearest_of_each_body, each link and each attached object is at most once the first
+  /// of the bodies.
+  std::vector<BodyDistance> pairs;
+  /// Row-major, one row per pair: the derivative of the distance by each variable, in metres per unit of the variable.
+  /// Where two points are equally near, it is that of the points of the pair. In collision, it is that of the contact,
+  /// which moves with the bodies. The derivatives by the values of a quaternion are those before it is normalised. NaN
+  /// without a normal. Empty unless the query has gradients.
+  std::vector<double> gradients;
+};
+
 /// Computes contacts and clearances of states of one scene. A clearance takes about a hundred times as long as a check.
 /// Thread-safe.
 class StateInspector
@@ -86,6 +129,11 @@ class StateInspector
 
   /// The nearest pairs of `count` states, computed on all cores. Throws Error as contacts() does.
   std::vector<NearestPairs> nearestPairs(const double* states, std::size_t count, const std::string& group) const;
+
+  /// The distances of the bodies of `count` states, computed on all cores. Throws Error as contacts() does, and if the
+  /// range is not above 0.
+  BodyDistances distances(const double* states, std::size_t count, const std::string& group,
+                          const DistanceQuery& query) const;
 
  private:
   struct Impl;

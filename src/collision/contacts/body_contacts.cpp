@@ -136,6 +136,23 @@ ShapeContact contactWithHalfSpace(const ContactShape& a, const PlacedHalfSpace& 
   return {point, down, std::max(0.0, depth) + kSeparationGap};
 }
 
+double leastDepthOf(const ContactPair& pair, const Vector3d& point)
+{
+  const auto is_curved = [](const ContactShape& shape)
+  { return std::holds_alternative<Cylinder>(shape.tree->shape) || std::holds_alternative<Cone>(shape.tree->shape); };
+  // The penetration depth of two convex shapes is exact, unless both are curved (see separationOf).
+  if (pair.a.is_convex && pair.b.is_convex && !(is_curved(pair.a) && is_curved(pair.b)))
+  {
+    constexpr double kErrorPerSize = 1e-8;
+    const double sizes = pair.a.tree->half.norm() + pair.b.tree->half.norm();
+    return std::max(0.0, hullSeparation(pair.a, pair.b).depth + pair.required - kErrorPerSize * sizes);
+  }
+  // A ball around the point is in each shape. They overlap until one has moved by the sum of their radii.
+  const double inside_a = depthInside(pair.a, point);
+  const double inside_b = depthInside(pair.b, point);
+  return inside_a > 0.0 && inside_b > 0.0 ? inside_a + inside_b + pair.required : 0.0;
+}
+
 std::array<Vector3d, 2> nearestPointsOf(const ContactShape& a, const ContactShape& b, double distance)
 {
   constexpr double kDistanceError = 1.1e-6;  // metres; exceeds the error of `distance`

@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 
-#include "collision/exact/exact_checker.h"
 #include "collision/problem/collision_problem.h"
 #include "collision/trees/cpu_forest.h"
 #include "collision/trees/object_tree.h"
@@ -22,8 +21,16 @@ struct NearestInstances
   InstancePair self = {};
 };
 
-/// Finds the clearance of a state with the exact test of pairs. A pair is at most x beyond its required distance v if
-/// it collides with the required distance v + x. Immutable.
+/// Two bodies and those of their shape instances that are nearest to each other.
+struct NearBodies
+{
+  BodyPair bodies;  ///< the first is a body of the robot
+  InstancePair instances;
+  double clearance;  ///< metres beyond the required distance, as Clearance
+};
+
+/// Finds clearances of a state with the exact test of pairs. A pair is at most x beyond its required distance v if it
+/// collides with the required distance v + x. `link_poses`: the pose of each link in the planning frame. Immutable.
 class ClearanceSearch
 {
  public:
@@ -32,8 +39,14 @@ class ClearanceSearch
   ClearanceSearch(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const CpuForest> forest,
                   std::shared_ptr<const ObjectTree> objects);
 
-  /// `link_poses`: the pose of each link in the planning frame.
+  /// The nearest pairs.
   NearestInstances find(const Eigen::Isometry3d* link_poses) const;
+
+  /// All pairs of bodies that are nearer than `range`, ascending by their bodies.
+  std::vector<NearBodies> pairsWithin(double range, const Eigen::Isometry3d* link_poses) const;
+
+  /// For each body of the robot its nearest pair, if that is nearer than `range`; the first of the bodies ascends.
+  std::vector<NearBodies> nearestOfBodies(double range, const Eigen::Isometry3d* link_poses) const;
 
  private:
   std::shared_ptr<const CollisionProblem> problem_;

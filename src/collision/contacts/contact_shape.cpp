@@ -1,6 +1,7 @@
 #include "collision/contacts/contact_shape.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "collision/exact/winding_number.h"
@@ -156,5 +157,35 @@ bool contains(const ContactShape& shape, const Vector3d& point)
     return distanceToSolid(shape.tree->shape, local) <= kOnShape;
   std::vector<std::uint32_t> stack;
   return isOnSurface(*shape.tree, local, stack) || isInsideSolid(*shape.tree, local, stack);
+}
+
+double depthInside(const ContactShape& shape, const Vector3d& point)
+{
+  const CpuTree& tree = *shape.tree;
+  const Vector3d local = shape.pose.linear().transpose() * (point - shape.pose.translation());
+  if (!tree.mesh)
+    return depthInSolid(tree.shape, local);
+  std::vector<std::uint32_t> stack;
+  if (!isInsideSolid(tree, local, stack))
+    return 0.0;
+  double depth = std::numeric_limits<double>::infinity();
+  stack.assign(1, 0);
+  while (!stack.empty())
+  {
+    const CpuNode& node = tree.nodes[stack.back()];
+    stack.pop_back();
+    const Vector3d beyond = (node.box.axes.transpose() * (local - node.box.center)).cwiseAbs() - node.box.half;
+    if (beyond.cwiseMax(0.0).norm() >= depth)
+      continue;
+    if (!node.isLeaf())
+    {
+      stack.push_back(node.first);
+      stack.push_back(node.first + 1);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      depth = std::min(depth, (nearestPoint(tree.triangles[i], local) - local).norm());
+  }
+  return std::max(0.0, depth - kOnShape);
 }
 }  // namespace gpu_planning_scene::core

@@ -73,4 +73,7 @@ double reachOf(const ContactShape& shape, const Eigen::Vector3d& direction);
 
 /// Whether a point belongs to a shape: it is inside its solid, or within 1e-8 m of its surface.
 bool contains(const ContactShape& shape, const Eigen::Vector3d& point);
+
+/// A lower bound of the distance of a point inside a shape from its surface, in metres; 0 if the point is outside.
+double depthInside(const ContactShape& shape, const Eigen::Vector3d& point);
 }  // namespace gpu_planning_scene::core

@@ -1,0 +1,178 @@
+#include "support/distance_truth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "collision/bounds/problem_maker.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Vector3d;
+
+constexpr double kClearanceError = 1.1e-6;  // metres; exceeds the error of a clearance
+
+BodyPair ascendingBodies(const BodyPair& bodies)
+{
+  return {std::min(bodies[0], bodies[1]), std::max(bodies[0], bodies[1])};
+}
+
+std::shared_ptr<const CollisionProblem> problemWithAllPairs(const PlanningScene& scene, const std::string& group)
+{
+  return std::make_shared<const CollisionProblem>(ProblemMaker(optionsWithAllPairs()).make(scene, group, nullptr));
+}
+
+oracle::Motion shifted(const Vector3d& translation, oracle::Motion motion)
+{
+  motion.translation = motion.translation + oracle::Vector(translation);
+  return motion;
+}
+}  // namespace
+
+DistanceFaults& DistanceFaults::operator+=(const DistanceFaults& other)
+{
+  compared += other.compared;
+  colliding += other.colliding;
+  missing += other.missing;
+  invented += other.invented;
+  distance_error = std::max(distance_error, other.distance_error);
+  point_error = std::max(point_error, other.point_error);
+  return *this;
+}
+
+DistanceTruth::DistanceTruth(const std::shared_ptr<const PlanningScene>& scene, const std::string& group)
+  : scene_(scene), problem_(problemWithAllPairs(*scene, group)), oracle_(problem_)
+{
+  for (const Shape& shape : problem_->shapes)
+    shapes_.push_back(std::make_unique<oracle::PreparedShape>(shape));
+  for (const WorldHalfSpace& plane : problem_->half_spaces)
+    shapes_.push_back(std::make_unique<oracle::PreparedShape>(HalfSpace{plane.normal, plane.offset}));
+}
+
+bool DistanceTruth::isOfRobot(std::int32_t body) const
+{
+  return std::any_of(
+      problem_->robot.begin(), problem_->robot.end(), [body](const ShapeInstance& each) { return each.body == body; });
+}
+
+std::vector<DistanceTruth::Placed> DistanceTruth::shapesOf(std::int32_t body,
+                                                           const std::vector<oracle::Motion>& link_poses) const
+{
+  std::vector<Placed> placed;
+  for (const ShapeInstance& each : problem_->robot)
+    if (each.body == body)
+      placed.push_back({shapes_[each.tree].get(),
+                        link_poses[static_cast<std::size_t>(each.link)] * oracle::Motion(each.pose), each.padding});
+  for (const ShapeInstance& each : problem_->world)
+    if (each.body == body)
+      placed.push_back({shapes_[each.tree].get(), oracle::Motion(each.pose), each.padding});
+  for (std::size_t k = 0; k < problem_->half_spaces.size(); ++k)
+    if (problem_->half_spaces[k].body == body)
+      placed.push_back({shapes_[problem_->shapes.size() + k].get(), {}, problem_->half_spaces[k].padding});
+  return placed;
+}
+
+/// The shapes of a body have one padding.
+double DistanceTruth::requiredOf(const BodyPair& bodies) const
+{
+  if (isOfRobot(bodies[0]) && isOfRobot(bodies[1]))
+    return 0.0;
+  const std::vector<oracle::Motion> poses(scene_->robot->links().size());
+  return shapesOf(bodies[0], poses).front().padding + shapesOf(bodies[1], poses).front().padding;
+}
+
+DistanceFaults DistanceTruth::compareAllPairs(const double* state, const BodyDistances& found, std::size_t state_number,
+                                              double range) const
+{
+  const std::vector<oracle::Motion> poses = oracle::linkPoses(*scene_->robot, state);
+  std::map<BodyPair, double> truth = oracle_.clearances(poses, range);
+  DistanceFaults faults;
+  for (std::size_t k = found.first[state_number]; k < found.first[state_number + 1]; ++k)
+  {
+    const BodyDistance& pair = found.pairs[k];
+    const auto known = truth.find(ascendingBodies(pair.bodies));
+    if (known == truth.end())
+    {
+      faults.invented += pair.distance < range - kClearanceError ? 1 : 0;
+      continue;
+    }
+    const double expected = known->second;
+    truth.erase(known);
+    ++faults.compared;
+    if (pair.distance < 0.0 || expected <= 0.0)
+    {
+      ++faults.colliding;
+      faults.invented += pair.distance >= 0.0 || expected > oracle::kTolerance ? 1 : 0;
+      continue;
+    }
+    // A clearance is a lower bound.
+    faults.distance_error =
+        std::max({faults.distance_error, expected - pair.distance,
+                  pair.distance > expected + 1e-9 ? pair.distance - expected + kClearanceError : 0.0});
+    const double between = (pair.points[1] - pair.points[0]).dot(pair.normal);
+    faults.point_error = std::max(faults.point_error, std::abs(between - expected - requiredOf(pair.bodies)));
+    for (std::size_t end = 0; end < 2; ++end)
+    {
+      double distance = std::numeric_limits<double>::infinity();
+      const oracle::PreparedShape point(Sphere{1e-9});
+      oracle::Motion at;
+      at.translation = oracle::Vector(pair.points[end]);
+      for (const Placed& shape : shapesOf(pair.bodies[end], poses))
+        distance = std::min(distance, oracle::distance(*shape.shape, shape.pose, point, at));
+      faults.point_error = std::max(faults.point_error, distance);
+    }
+  }
+  for (const auto& [bodies, clearance] : truth)
+    faults.missing += clearance < range - kClearanceError ? 1 : 0;
+  return faults;
+}
+
+double DistanceTruth::gradientError(const double* state, const BodyDistance& pair, const double* gradient) const
+{
+  constexpr double kStep = 1e-6;  // radians or metres
+  const RobotModel& robot = *scene_->robot;
+  const BodyPair bodies = ascendingBodies(pair.bodies);
+  std::vector<double> moved(state, state + robot.variables().size());
+  const auto clearance = [&]
+  { return oracle_.clearanceOf(bodies, oracle::linkPoses(robot, moved.data()), pair.distance + 1e-3); };
+  const double here = clearance();
+  double error = 0.0;
+  for (std::size_t v = 0; v < moved.size(); ++v)
+  {
+    moved[v] = state[v] + kStep;
+    const double above = (clearance() - here) / kStep;
+    moved[v] = state[v] - kStep;
+    const double below = (here - clearance()) / kStep;
+    moved[v] = state[v];
+    error = std::max({error, gradient[v] - std::max(above, below), std::min(above, below) - gradient[v]});
+  }
+  return error;
+}
+
+bool DistanceTruth::collidesAfter(const double* state, const BodyDistance& pair, double length,
+                                  std::uint64_t seed) const
+{
+  const std::vector<oracle::Motion> poses = oracle::linkPoses(*scene_->robot, state);
+  const std::vector<Placed> first = shapesOf(pair.bodies[0], poses);
+  const std::vector<Placed> second = shapesOf(pair.bodies[1], poses);
+  const double required = requiredOf(pair.bodies);
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 20; ++i)
+  {
+    Vector3d direction(normal(random), normal(random), normal(random));
+    direction = i < 2 ? Vector3d((i == 0 ? 1.0 : -1.0) * pair.normal) : direction.normalized();
+    bool collides = false;
+    for (const Placed& a : first)
+      for (const Placed& b : second)
+        collides = collides || oracle::verdict(*a.shape, a.pose, *b.shape, shifted(length * direction, b.pose),
+                                               required) != oracle::Verdict::Free;
+    if (!collides)
+      return false;
+  }
+  return true;
+}
+}  // namespace gpu_planning_scene::core
