@@ -17,8 +17,6 @@ namespace
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kOnShape = 1e-8;  // metres
-
 Vector3d farthestVertex(const CpuTree& tree, const Vector3d& direction, std::vector<std::uint32_t>& stack)
 {
   Vector3d best = tree.triangles.front()[0];
@@ -165,11 +163,8 @@ double depthInside(const ContactShape& shape, const Vector3d& point)
   const Vector3d local = shape.pose.linear().transpose() * (point - shape.pose.translation());
   if (!tree.mesh)
     return depthInSolid(tree.shape, local);
-  std::vector<std::uint32_t> stack;
-  if (!isInsideSolid(tree, local, stack))
-    return 0.0;
   double depth = std::numeric_limits<double>::infinity();
-  stack.assign(1, 0);
+  std::vector<std::uint32_t> stack(1, 0);
   while (!stack.empty())
   {
     const CpuNode& node = tree.nodes[stack.back()];
@@ -186,6 +181,6 @@ double depthInside(const ContactShape& shape, const Vector3d& point)
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
       depth = std::min(depth, (nearestPoint(tree.triangles[i], local) - local).norm());
   }
-  return std::max(0.0, depth - kOnShape);
+  return depth > kOnShape && isInsideSolid(tree, local, stack) ? depth - kOnShape : 0.0;
 }
 }  // namespace gpu_planning_scene::core

@@ -71,7 +71,10 @@ ConvexSeparation hullSeparation(const ContactShape& a, const ContactShape& b);
 /// The coordinate of the shape's farthest point along a direction.
 double reachOf(const ContactShape& shape, const Eigen::Vector3d& direction);
 
-/// Whether a point belongs to a shape: it is inside its solid, or within 1e-8 m of its surface.
+/// A point that is outside a shape by at most this length belongs to the shape.
+constexpr double kOnShape = 1e-8;  // metres
+
+/// Whether a point belongs to a shape: it is inside its solid, or within kOnShape of its surface.
 bool contains(const ContactShape& shape, const Eigen::Vector3d& point);
 
 /// A lower bound of the distance of a point inside a shape from its surface, in metres; 0 if the point is outside.

@@ -23,7 +23,7 @@ constexpr double kSeparationGap = 2e-9;  // metres
 
 /// The parts of a colliding pair that meet. The nearest parts if the surfaces do not meet: because one shape is inside
 /// the other, or because the pair only misses its required distance. At most `most`; none for two primitives.
-std::vector<Crossing> meetingParts(const ContactPair& pair, std::size_t most, CpuShapePair::Scratch& scratch);
+std::vector<ShapeParts> meetingParts(const ContactPair& pair, std::size_t most, CpuShapePair::Scratch& scratch);
 
 /// A short translation that ends the collisions of all `pairs`, which are the pairs of shapes of two bodies.
 /// `colliding`: the numbers of those pairs that collide; at least one. After the translation, the exact tests find that

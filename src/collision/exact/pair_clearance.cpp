@@ -1,6 +1,7 @@
 #include "collision/exact/pair_clearance.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,20 +22,20 @@ using Eigen::Vector3d;
 // Distance bounds are widened by this margin, which exceeds their rounding error and kSlack.
 constexpr double kMargin = 1e-9;  // metres
 
-/// The clearance found so far. For two leaves, within(v) of update() tells whether they are within the distance v, and
+/// The clearance found so far. For two parts, within(v) of update() tells whether they are within the distance v, and
 /// distance() is an estimate of their distance.
-class Best
+class LeastClearance
 {
  public:
-  Best(double required, double most) : required_(required), clearance_(most) {}
+  LeastClearance(double required, double most) : required_(required), clearance_(most) {}
 
   double clearance() const { return clearance_; }
   /// Nodes that are farther from each other than this cannot improve the clearance.
   double reach() const { return required_ + clearance_ + kMargin; }
 
-  /// Returns whether the leaves are nearer than the best so far.
+  /// Returns whether the parts are nearer than the best so far.
   template <class Within, class Distance>
-  bool update(const Within& within, const Distance& distance)
+  bool update(const ShapeParts& /*parts*/, const Within& within, const Distance& distance)
   {
     const auto meets = [&](double x) { return within(required_ + x); };
     if (!meets(clearance_))
@@ -46,6 +47,31 @@ class Best
  private:
   double required_;
   double clearance_;
+};
+
+/// The nearest parts so far, by the estimates of their distances.
+class LeastDistance
+{
+ public:
+  explicit LeastDistance(double most) : distance_(most) {}
+
+  const std::optional<ShapeParts>& parts() const { return parts_; }
+  double reach() const { return distance_ + kMargin; }
+
+  template <class Within, class Distance>
+  bool update(const ShapeParts& parts, const Within& /*within*/, const Distance& distance)
+  {
+    const double found = distance();
+    if (found >= distance_)
+      return false;
+    distance_ = found;
+    parts_ = parts;
+    return true;
+  }
+
+ private:
+  double distance_;
+  std::optional<ShapeParts> parts_;
 };
 
 /// A stack of box pairs. The boxes below a node are pushed together, and the nearest of them is popped first.
@@ -78,6 +104,7 @@ class NearestFirst
 };
 
 /// The search in two meshes.
+template <class Best>
 class SurfaceSearch
 {
  public:
@@ -143,11 +170,13 @@ class SurfaceSearch
          near &= near - 1)
     {
       const unsigned bit = lowestBit(near);
-      const Triangle& of_a = a_.triangles[block_a.first + bit % kBlockTriangles];
-      const Triangle& t = b_.triangles[block_b.first + bit / kBlockTriangles];
+      const ShapeParts parts = {block_a.first + bit % kBlockTriangles, block_b.first + bit / kBlockTriangles};
+      const Triangle& of_a = a_.triangles[parts.of_a];
+      const Triangle& t = b_.triangles[parts.of_b];
       const Triangle of_b = {b_in_a_ * t[0], b_in_a_ * t[1], b_in_a_ * t[2]};
-      is_nearer |= best_.update([&](double distance) { return trianglesWithin(of_a, of_b, distance); },
-                                [&] { return outlineDistance(of_a, of_b); });
+      is_nearer |= best_.update(
+          parts, [&](double distance) { return trianglesWithin(of_a, of_b, distance); },
+          [&] { return outlineDistance(of_a, of_b); });
     }
     if (!is_nearer)
       return;
@@ -165,6 +194,7 @@ class SurfaceSearch
   WidePlacement in_b_;
 };
 
+template <class Best>
 void surfaceApartFromSolid(const CpuTree& mesh, const CpuTree& solid, const Isometry3d& mesh_in_solid, Best& best,
                            CpuShapePair::Scratch& scratch)
 {
@@ -184,8 +214,10 @@ void surfaceApartFromSolid(const CpuTree& mesh, const CpuTree& solid, const Isom
       {
         const Triangle& t = mesh.triangles[i];
         const Triangle triangle = {mesh_in_solid * t[0], mesh_in_solid * t[1], mesh_in_solid * t[2]};
-        best.update([&](double distance) { return triangleWithinSolid(triangle, solid.shape, distance); },
-                    [&] { return distanceToSolid(solid.shape, triangle); });
+        best.update(
+            {i, ShapeParts::kWhole},
+            [&](double distance) { return triangleWithinSolid(triangle, solid.shape, distance); },
+            [&] { return distanceToSolid(solid.shape, triangle); });
       }
       continue;
     }
@@ -201,22 +233,42 @@ void surfaceApartFromSolid(const CpuTree& mesh, const CpuTree& solid, const Isom
     }
   }
 }
-}  // namespace
 
-double pairClearance(const CpuTree& a, const Isometry3d& pose_a, const CpuTree& b, const Isometry3d& pose_b,
-                     double required, double most, CpuShapePair::Scratch& scratch)
+/// Offers the parts of two shapes that may be nearest to `best`. The parts of a mesh and a solid begin with those of
+/// the mesh. `b_in_a`: the pose of b in the frame of a.
+template <class Best>
+void search(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, Best& best, CpuShapePair::Scratch& scratch)
 {
-  Best best(required, most);
-  const Isometry3d b_in_a = relativePose(pose_a, pose_b);
   if (a.mesh && b.mesh)
-    SurfaceSearch(a, b, b_in_a, best).run(scratch);
+    SurfaceSearch<Best>(a, b, b_in_a, best).run(scratch);
   else if (a.mesh)
     surfaceApartFromSolid(a, b, b_in_a.inverse(), best, scratch);
   else if (b.mesh)
     surfaceApartFromSolid(b, a, b_in_a, best, scratch);
   else
-    best.update([&](double distance) { return solidsWithin(a.shape, b.shape, b_in_a, distance); },
-                [&] { return distanceOfSolids(a.shape, b.shape, b_in_a); });
+    best.update(
+        {ShapeParts::kWhole, ShapeParts::kWhole},
+        [&](double distance) { return solidsWithin(a.shape, b.shape, b_in_a, distance); },
+        [&] { return distanceOfSolids(a.shape, b.shape, b_in_a); });
+}
+}  // namespace
+
+double pairClearance(const CpuTree& a, const Isometry3d& pose_a, const CpuTree& b, const Isometry3d& pose_b,
+                     double required, double most, CpuShapePair::Scratch& scratch)
+{
+  LeastClearance best(required, most);
+  search(a, b, relativePose(pose_a, pose_b), best, scratch);
   return best.clearance();
+}
+
+std::optional<ShapeParts> nearestParts(const CpuTree& a, const Isometry3d& pose_a, const CpuTree& b,
+                                       const Isometry3d& pose_b, double most, CpuShapePair::Scratch& scratch)
+{
+  LeastDistance best(most);
+  search(a, b, relativePose(pose_a, pose_b), best, scratch);
+  std::optional<ShapeParts> parts = best.parts();
+  if (parts && !a.mesh && b.mesh)
+    std::swap(parts->of_a, parts->of_b);
+  return parts;
 }
 }  // namespace gpu_planning_scene::core

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstdint>
 #include <limits>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -37,4 +39,18 @@ double bisectLeast(double low, double high, const Predicate& holds,
 /// more, the result is `most`. Otherwise the result is at most 1e-6 m below the clearance, and never above it.
 double pairClearance(const CpuTree& a, const Eigen::Isometry3d& pose_a, const CpuTree& b,
                      const Eigen::Isometry3d& pose_b, double required, double most, CpuShapePair::Scratch& scratch);
+
+/// Parts of two shapes: a triangle of each mesh, or a primitive as a whole.
+struct ShapeParts
+{
+  static constexpr std::uint32_t kWhole = 0xffffffff;
+
+  std::uint32_t of_a;  ///< index in the triangles of the tree; kWhole: the primitive
+  std::uint32_t of_b;
+};
+
+/// The parts that are nearest to each other, by distances in double arithmetic; no value if none are nearer than
+/// `most`. The shapes must not collide.
+std::optional<ShapeParts> nearestParts(const CpuTree& a, const Eigen::Isometry3d& pose_a, const CpuTree& b,
+                                       const Eigen::Isometry3d& pose_b, double most, CpuShapePair::Scratch& scratch);
 }  // namespace gpu_planning_scene::core

@@ -53,7 +53,8 @@ class CheckServices
  private:
   CheckAnswer answerOf(CheckJob job) const;
   std::optional<Snapshot> wantedScene(std::uint64_t revision);
-  void inspect(const CheckStates::Request& request, const CheckAnswer& answer, CheckStates::Response& response);
+  void inspect(const CheckStates::Request& request, const CheckAnswer& answer,
+               const std::vector<int>& gradient_variables, CheckStates::Response& response);
 
   const SceneStore& store_;
   CheckServer& server_;

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "base/seconds_since.h"
+#include "base/text/number_text.h"
 #include "base/text/one_line.h"
 #include "gpu_planning_scene/error.h"
 #include "model/joint_limits.h"
@@ -26,6 +27,29 @@ std::vector<int> allColumns(const RobotModel& robot)
   std::vector<int> columns(robot.variables().size());
   std::iota(columns.begin(), columns.end(), 0);
   return columns;
+}
+
+bool hasDistances(const CheckStates::Request& request)
+{
+  return request.clearance || request.nearest || request.distances != CheckStates::Request::NO_DISTANCES;
+}
+
+void requireDistances(const CheckStates::Request& request)
+{
+  if (request.distances > CheckStates::Request::ALL_PAIRS)
+    throw Error("distances is " + std::to_string(request.distances) +
+                "; it must be NO_DISTANCES, NEAREST_OF_EACH_BODY or ALL_PAIRS");
+  if (!(request.distance_range >= 0.0))
+    throw Error("distance_range is " + numberText(request.distance_range) + " m; it must be at least 0");
+}
+
+DistanceQuery queryOf(const CheckStates::Request& request)
+{
+  DistanceQuery query;
+  if (request.distance_range > 0.0)
+    query.range = request.distance_range;
+  query.nearest_of_each_body = request.distances == CheckStates::Request::NEAREST_OF_EACH_BODY;
+  return query;
 }
 }  // namespace
 
@@ -84,7 +108,9 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         job.matrix = scene.matrix;
         if (scene.is_changed || is_of_current_state || wanted)
           job.scene = scene.now;
-        job.keep_states = request.max_contacts != 0 || request.clearance || request.nearest;
+        requireDistances(request);
+        const std::vector<int> gradient_variables = request.joint_names.empty() ? allColumns(robot) : job.columns;
+        job.keep_states = request.max_contacts != 0 || hasDistances(request);
         const bool inspects = job.keep_states;
         std::optional<Admission::Pass> pass;
         if (inspects)
@@ -106,18 +132,18 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         if (inspects)
         {
           const auto start = std::chrono::steady_clock::now();
-          inspect(request, answer, response);
+          inspect(request, answer, gradient_variables, response);
           response.seconds += secondsSince(start);
         }
       });
 }
 
 void CheckServices::inspect(const CheckStates::Request& request, const CheckAnswer& answer,
-                            CheckStates::Response& response)
+                            const std::vector<int>& gradient_variables, CheckStates::Response& response)
 {
   const std::vector<std::uint8_t>& valid = answer.result.valid;
   const auto colliding = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 0));
-  const bool has_distances = request.clearance || request.nearest;
+  const bool has_distances = hasDistances(request);
   const std::size_t inspected = has_distances ? valid.size() : colliding;
   if (inspected > options_.max_inspected_states)
     throw Error("contacts or clearance requested for " + std::to_string(inspected) + " states; the limit is " +
@@ -164,7 +190,19 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
         response.nearest_world.push_back(messageOf(pairs.world, *answer.scene));
         response.nearest_self.push_back(messageOf(pairs.self, *answer.scene));
       }
+    if (request.distances == CheckStates::Request::NO_DISTANCES)
+      continue;
+    const BodyDistances distances = inspector->distances(states, count, request.group, queryOf(request));
+    if (response.distances.size() + distances.pairs.size() > options_.max_contacts)
+      throw Error("more than " + std::to_string(options_.max_contacts) +
+                  " distances (limits/contacts): request a shorter distance_range, the nearest pairs, or fewer states");
+    for (std::size_t state = 0; state < count; ++state)
+      for (std::size_t pair = distances.first[state]; pair < distances.first[state + 1]; ++pair)
+        response.distances.push_back(messageOf(distances, pair, gradient_variables, *answer.scene, i + state));
   }
+  if (request.distances != CheckStates::Request::NO_DISTANCES)
+    for (const int variable : gradient_variables)
+      response.gradient_names.push_back(answer.scene->robot->variables()[static_cast<std::size_t>(variable)].name);
 }
 
 /// The inspector is built without the lock, so that several can be built at the same time. The inspector of the newest

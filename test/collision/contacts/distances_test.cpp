@@ -141,7 +141,7 @@ TEST_P(Distances, InCollisionKnowALengthThatDoesNotSeparateTheBodies)
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Distances, testing::Values("arm_shelf", "arm_driven", "kr5_boxes"),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& tested) { return std::string(tested.param); });
 
 TEST(DistanceQueries, RefuseARangeThatIsNotAboveZero)
 {
