@@ -138,10 +138,7 @@ ShapeContact contactWithHalfSpace(const ContactShape& a, const PlacedHalfSpace& 
 
 double leastDepthOf(const ContactPair& pair, const Vector3d& point)
 {
-  const auto is_curved = [](const ContactShape& shape)
-  { return std::holds_alternative<Cylinder>(shape.tree->shape) || std::holds_alternative<Cone>(shape.tree->shape); };
-  // The penetration depth of two convex shapes is exact, unless both are curved (see separationOf).
-  if (pair.a.is_convex && pair.b.is_convex && !(is_curved(pair.a) && is_curved(pair.b)))
+  if (hasExactSeparation(pair.a, pair.b))
   {
     constexpr double kErrorPerSize = 1e-8;
     const double sizes = pair.a.tree->half.norm() + pair.b.tree->half.norm();
@@ -165,8 +162,16 @@ std::array<Vector3d, 2> nearestPointsOf(const ContactShape& a, const ContactShap
     return {hulls.on_a, hulls.on_b};
   }
   CpuShapePair::Scratch scratch;
-  const auto parts = nearestParts(*a.tree, a.pose, *b.tree, b.pose, distance + kDistanceError, scratch);
+  const auto parts = pairClearance(*a.tree, a.pose, *b.tree, b.pose, 0.0, distance + kDistanceError, scratch).parts;
   const Vector3d none = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  return parts ? pointsOf(a, b, *parts) : std::array<Vector3d, 2>{none, none};
+  return parts ? nearestPointsOf(a, b, *parts) : std::array<Vector3d, 2>{none, none};
+}
+
+std::array<Vector3d, 2> nearestPointsOf(const ContactShape& a, const ContactShape& b, const ShapeParts& parts)
+{
+  if (parts.of_a != ShapeParts::kWhole || parts.of_b != ShapeParts::kWhole)
+    return pointsOf(a, b, parts);
+  const ConvexSeparation hulls = hullSeparation(a, b);
+  return {hulls.on_a, hulls.on_b};
 }
 }  // namespace gpu_planning_scene::core

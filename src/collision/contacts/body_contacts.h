@@ -8,6 +8,7 @@
 
 #include "collision/contacts/contact_shape.h"
 #include "collision/exact/cpu_shape_pair.h"
+#include "collision/exact/pair_clearance.h"
 
 namespace gpu_planning_scene::core
 {
@@ -40,4 +41,7 @@ double leastDepthOf(const ContactPair& pair, const Eigen::Vector3d& point);
 /// The nearest points of two shapes that do not collide, up to 1e-6 m in their distance. `distance`: of the shapes, as
 /// pairClearance computes it.
 std::array<Eigen::Vector3d, 2> nearestPointsOf(const ContactShape& a, const ContactShape& b, double distance);
+
+/// The nearest points of two parts of shapes that do not collide.
+std::array<Eigen::Vector3d, 2> nearestPointsOf(const ContactShape& a, const ContactShape& b, const ShapeParts& parts);
 }  // namespace gpu_planning_scene::core

@@ -70,13 +70,13 @@ BodyDistance distanceFrom(std::int32_t first, const CollidingPair& pair, double 
 }
 
 /// The distance of a pair that does not collide.
-BodyDistance distanceOf(const NearBodies& pair, const std::array<Vector3d, 2>& points)
+BodyDistance distanceOf(const NearBodies& pair)
 {
   BodyDistance found;
   found.bodies = pair.bodies;
   found.distance = pair.clearance;
-  found.points = points;
-  found.normal = directionFrom(points[0], points[1]);
+  found.points = pair.points;
+  found.normal = directionFrom(pair.points[0], pair.points[1]);
   return found;
 }
 
@@ -96,34 +96,26 @@ NearestPairs nearestPairsOf(const PlanningScene& scene, const InspectedGroup& gr
   const auto is_world = [first = static_cast<std::int32_t>(scene.robot->links().size()),
                          count = static_cast<std::int32_t>(scene.objects.size())](std::int32_t body)
   { return body >= first && body < first + count; };
-  const NearestInstances nearest = group.clearance().find(link_poses.data());
+  const NearestOfState nearest = group.clearance().find(link_poses.data());
   Collisions collisions(group, link_poses);
-  const auto pairOf = [&](double clearance, const BodyPair& bodies, const InstancePair& instances, bool of_world)
+  const auto pairOf = [&](const NearBodies& near, bool of_world) -> NearestPair
   {
-    NearestPair found;
-    found.bodies = bodies;
-    found.distance = clearance;
-    if (bodies == kNoPair)
-      return found;
+    if (near.bodies == kNoPair)
+      return {};
     const CollidingPair* deepest =
-        clearance > 0.0 ? nullptr
-                        : collisions.deepest([&](const BodyPair& pair)
-                                             { return (is_world(pair[0]) || is_world(pair[1])) == of_world; });
-    if (!deepest)
+        near.clearance > 0.0 ? nullptr
+                             : collisions.deepest([&](const BodyPair& pair)
+                                                  { return (is_world(pair[0]) || is_world(pair[1])) == of_world; });
+    if (deepest)
     {
-      found.points = group.nearestPoints(instances, clearance, link_poses);
-      if (bodyOf(group.problem(), instances[0]) != bodies[0])
-        std::swap(found.points[0], found.points[1]);
-      return found;
+      const Contact& contact = deepest->contacts.front();
+      return {contact.bodies, -contact.depth, {contact.point, contact.point}};
     }
-    const Contact& contact = deepest->contacts.front();
-    found.bodies = contact.bodies;
-    found.distance = -contact.depth;
-    found.points = {contact.point, contact.point};
-    return found;
+    if (near.bodies[0] < near.bodies[1])
+      return {near.bodies, near.clearance, near.points};
+    return {{near.bodies[1], near.bodies[0]}, near.clearance, {near.points[1], near.points[0]}};
   };
-  return {pairOf(nearest.clearance.world, nearest.clearance.nearest_world, nearest.world, true),
-          pairOf(nearest.clearance.self, nearest.clearance.nearest_self, nearest.self, false)};
+  return {pairOf(nearest.world, true), pairOf(nearest.self, false)};
 }
 
 StateDistances distancesOf(const RobotModel& robot, const InspectedGroup& group, const DistanceQuery& query,
@@ -143,9 +135,8 @@ StateDistances distancesOf(const RobotModel& robot, const InspectedGroup& group,
                  : pair == BodyPair{std::min(first, near.bodies[1]), std::max(first, near.bodies[1])};
     };
     const CollidingPair* colliding = near.clearance > 0.0 ? nullptr : collisions.deepest(isWanted);
-    found.pairs.push_back(colliding
-                              ? distanceFrom(near.bodies[0], *colliding, group.leastDepth(*colliding, link_poses))
-                              : distanceOf(near, group.nearestPoints(near.instances, near.clearance, link_poses)));
+    found.pairs.push_back(colliding ? distanceFrom(near.bodies[0], *colliding, group.leastDepth(*colliding, link_poses))
+                                    : distanceOf(near));
   }
   if (!query.gradients)
     return found;

@@ -17,15 +17,12 @@ struct NearestOfAll
 {
   double reach(std::int32_t /*body*/) const { return found.clearance; }
   double reach(const BodyPair& /*bodies*/) const { return found.clearance; }
-  void take(const BodyPair& bodies, const InstancePair& instances, double clearance)
-  {
-    found = {{std::min(bodies[0], bodies[1]), std::max(bodies[0], bodies[1])}, instances, clearance};
-  }
+  void take(const NearBodies& pair) { found = pair; }
 
-  NearBodies found = {kNoPair, {}, std::numeric_limits<double>::infinity()};
+  NearBodies found = {};
 };
 
-/// Keeps all pairs of bodies within a range, each with its nearest instances.
+/// Keeps all pairs of bodies within a range.
 struct PairsWithin
 {
   double reach(std::int32_t /*body*/) const { return range; }
@@ -34,10 +31,7 @@ struct PairsWithin
     const auto known = found.find(bodies);
     return known == found.end() ? range : known->second.clearance;
   }
-  void take(const BodyPair& bodies, const InstancePair& instances, double clearance)
-  {
-    found[bodies] = {bodies, instances, clearance};
-  }
+  void take(const NearBodies& pair) { found[pair.bodies] = pair; }
 
   double range;
   std::map<BodyPair, NearBodies> found = {};
@@ -55,12 +49,12 @@ struct NearestOfBodies
   {
     return is_self ? std::max(reach(bodies[0]), reach(bodies[1])) : reach(bodies[0]);
   }
-  void take(const BodyPair& bodies, const InstancePair& instances, double clearance)
+  void take(const NearBodies& pair)
   {
-    if (clearance < reach(bodies[0]))
-      found[bodies[0]] = {bodies, instances, clearance};
-    if (is_self && clearance < reach(bodies[1]))
-      found[bodies[1]] = {{bodies[1], bodies[0]}, {instances[1], instances[0]}, clearance};
+    if (pair.clearance < reach(pair.bodies[0]))
+      found[pair.bodies[0]] = pair;
+    if (is_self && pair.clearance < reach(pair.bodies[1]))
+      found[pair.bodies[1]] = {{pair.bodies[1], pair.bodies[0]}, pair.clearance, {pair.points[1], pair.points[0]}};
   }
 
   double range;
@@ -80,30 +74,29 @@ std::vector<NearBodies> valuesOf(const Map& found)
 }  // namespace
 
 ClearanceSearch::ClearanceSearch(std::shared_ptr<const CollisionProblem> problem,
-                                 std::shared_ptr<const CpuForest> forest, std::shared_ptr<const ObjectTree> objects)
-  : problem_(std::move(problem)), forest_(std::move(forest)), objects_(std::move(objects))
+                                 std::shared_ptr<const CpuForest> forest, std::shared_ptr<const ObjectTree> objects,
+                                 const ConvexTrees& convex)
+  : problem_(std::move(problem)), forest_(std::move(forest)), objects_(std::move(objects)), convex_(convex)
 {
   world_bounds_.reserve(problem_->world.size());
   for (const ShapeInstance& instance : problem_->world)
     world_bounds_.push_back(boundsOf(forest_->tree(instance.tree), instance.pose));
 }
 
-NearestInstances ClearanceSearch::find(const Eigen::Isometry3d* link_poses) const
+NearestOfState ClearanceSearch::find(const Eigen::Isometry3d* link_poses) const
 {
   NearestOfAll world;
   NearestOfAll self;
-  PairSearch search(*problem_, forest_, *objects_, world_bounds_, link_poses);
+  PairSearch search(*problem_, forest_, *objects_, convex_, world_bounds_, link_poses);
   search.world(world);
   search.self(self);
-  return {{world.found.clearance, self.found.clearance, world.found.bodies, self.found.bodies},
-          world.found.instances,
-          self.found.instances};
+  return {world.found, self.found};
 }
 
 std::vector<NearBodies> ClearanceSearch::pairsWithin(double range, const Eigen::Isometry3d* link_poses) const
 {
   PairsWithin pairs{range};
-  PairSearch search(*problem_, forest_, *objects_, world_bounds_, link_poses);
+  PairSearch search(*problem_, forest_, *objects_, convex_, world_bounds_, link_poses);
   search.world(pairs);
   search.self(pairs);
   return valuesOf(pairs.found);
@@ -112,7 +105,7 @@ std::vector<NearBodies> ClearanceSearch::pairsWithin(double range, const Eigen::
 std::vector<NearBodies> ClearanceSearch::nearestOfBodies(double range, const Eigen::Isometry3d* link_poses) const
 {
   NearestOfBodies bodies{range};
-  PairSearch search(*problem_, forest_, *objects_, world_bounds_, link_poses);
+  PairSearch search(*problem_, forest_, *objects_, convex_, world_bounds_, link_poses);
   search.world(bodies);
   bodies.is_self = true;
   search.self(bodies);

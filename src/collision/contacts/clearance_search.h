@@ -1,32 +1,36 @@
 #pragma once
 
+#include <array>
+#include <limits>
 #include <memory>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include "collision/contacts/convex_trees.h"
 #include "collision/problem/collision_problem.h"
 #include "collision/trees/cpu_forest.h"
 #include "collision/trees/object_tree.h"
-#include "gpu_planning_scene/state_inspector.h"
+#include "gpu_planning_scene/state_checker.h"
 
 namespace gpu_planning_scene::core
 {
-/// The clearance of a state, and the shape instances that are nearest to each other. An instance pair is set only if
-/// the clearance has a pair of bodies.
-struct NearestInstances
-{
-  Clearance clearance;
-  InstancePair world = {};
-  InstancePair self = {};
-};
-
 /// Two bodies and those of their shape instances that are nearest to each other.
 struct NearBodies
 {
-  BodyPair bodies;  ///< the first is a body of the robot
-  InstancePair instances;
-  double clearance;  ///< metres beyond the required distance, as Clearance
+  BodyPair bodies = kNoPair;                                   ///< the first is a body of the robot
+  double clearance = std::numeric_limits<double>::infinity();  ///< metres beyond the required distance, as Clearance
+  /// The nearest points of the surfaces without padding, in the order of the bodies and in the planning frame; NaN if
+  /// the bodies collide.
+  std::array<Eigen::Vector3d, 2> points = {Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()),
+                                           Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())};
+};
+
+/// The nearest pairs of a state; without bodies if no pair is checked.
+struct NearestOfState
+{
+  NearBodies world;
+  NearBodies self;
 };
 
 /// Finds clearances of a state with the exact test of pairs. A pair is at most x beyond its required distance v if it
@@ -35,12 +39,11 @@ class ClearanceSearch
 {
  public:
   /// The problem must contain all pairs, also those that collide in every state. `objects` must be built over
-  /// worldBounds().
+  /// worldBounds(). `convex` must outlive the search.
   ClearanceSearch(std::shared_ptr<const CollisionProblem> problem, std::shared_ptr<const CpuForest> forest,
-                  std::shared_ptr<const ObjectTree> objects);
+                  std::shared_ptr<const ObjectTree> objects, const ConvexTrees& convex);
 
-  /// The nearest pairs.
-  NearestInstances find(const Eigen::Isometry3d* link_poses) const;
+  NearestOfState find(const Eigen::Isometry3d* link_poses) const;
 
   /// All pairs of bodies that are nearer than `range`, ascending by their bodies.
   std::vector<NearBodies> pairsWithin(double range, const Eigen::Isometry3d* link_poses) const;
@@ -52,6 +55,7 @@ class ClearanceSearch
   std::shared_ptr<const CollisionProblem> problem_;
   std::shared_ptr<const CpuForest> forest_;
   std::shared_ptr<const ObjectTree> objects_;
+  const ConvexTrees& convex_;
   std::vector<Eigen::AlignedBox3d> world_bounds_;  // boxes of the world's instances, without padding
 };
 }  // namespace gpu_planning_scene::core

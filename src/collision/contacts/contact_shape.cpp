@@ -143,6 +143,13 @@ ConvexSeparation hullSeparation(const ContactShape& a, const ContactShape& b)
   return found;
 }
 
+bool hasExactSeparation(const ContactShape& a, const ContactShape& b)
+{
+  const auto is_curved = [](const ContactShape& shape)
+  { return std::holds_alternative<Cylinder>(shape.tree->shape) || std::holds_alternative<Cone>(shape.tree->shape); };
+  return a.is_convex && b.is_convex && !(is_curved(a) && is_curved(b));
+}
+
 double reachOf(const ContactShape& shape, const Vector3d& direction)
 {
   return direction.dot(ShapeHull(*shape.tree, shape.pose).farthest(direction)) + sphereRadius(*shape.tree);

@@ -68,6 +68,10 @@ double sphereRadius(const CpuTree& tree);
 /// The separation of the hulls of two shapes, in the frame of the poses. The points lie on the surfaces of the hulls.
 ConvexSeparation hullSeparation(const ContactShape& a, const ContactShape& b);
 
+/// Whether hullSeparation is exact to 1e-9 times the sizes of the shapes: both are convex, and not both are curved (see
+/// separationOf).
+bool hasExactSeparation(const ContactShape& a, const ContactShape& b);
+
 /// The coordinate of the shape's farthest point along a direction.
 double reachOf(const ContactShape& shape, const Eigen::Vector3d& direction);
 

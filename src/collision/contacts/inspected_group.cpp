@@ -81,39 +81,16 @@ InspectionTrees::Prepared InspectionTrees::prepare(const PlanningScene& scene, c
   made.problem = std::make_shared<const CollisionProblem>(maker_.make(scene, group, nullptr));
   made.exact = forests_.exactCheckerOf(made.problem);
   made.forest = forests_.forest();
-  made.clearance = std::make_unique<const ClearanceSearch>(made.problem, made.forest, forests_.objects());
+  made.objects = forests_.objects();
   return made;
 }
 
-bool InspectionTrees::isConvex(const std::shared_ptr<const CpuTree>& tree)
-{
-  if (!tree->mesh)
-    return true;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const auto known = convex_.find(tree);
-    if (known != convex_.end())
-      return known->second;
-  }
-  const bool is_convex = isConvexSolid(*tree);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return convex_[tree] = is_convex;
-}
-
-void InspectionTrees::forgetUnused()
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  for (auto entry = convex_.begin(); entry != convex_.end();)
-    entry = entry->first.expired() ? convex_.erase(entry) : std::next(entry);
-}
-
-InspectedGroup::InspectedGroup(const PlanningScene& scene, const std::string& group,
-                               std::shared_ptr<InspectionTrees> trees)
-  : trees_(std::move(trees)),
-    prepared_(trees_->prepare(scene, group)),
+InspectedGroup::InspectedGroup(const PlanningScene& scene, const std::string& group, InspectionTrees& trees)
+  : prepared_(trees.prepare(scene, group)),
+    convex_(trees.convexity(), prepared_.forest, problem().tessellations.size()),
+    clearance_(prepared_.problem, prepared_.forest, prepared_.objects, convex_),
     pairs_(problem()),
-    first_half_space_(static_cast<std::uint32_t>(problem().robot.size() + problem().world.size())),
-    convexity_(prepared_.problem->tessellations.size())
+    first_half_space_(static_cast<std::uint32_t>(problem().robot.size() + problem().world.size()))
 {
 }
 
@@ -130,17 +107,6 @@ std::vector<CollidingPair> InspectedGroup::collidingPairs(const std::vector<Eige
   return found;
 }
 
-/// The answer is kept, because InspectionTrees has a lock.
-bool InspectedGroup::isConvex(std::uint32_t tree) const
-{
-  const Known known = convexity_[tree].load(std::memory_order_relaxed);
-  if (known != Known::Nothing)
-    return known == Known::Convex;
-  const bool is_convex = trees_->isConvex(prepared_.forest->shared(tree));
-  convexity_[tree].store(is_convex ? Known::Convex : Known::NotConvex, std::memory_order_relaxed);
-  return is_convex;
-}
-
 /// The index counts the instances of the robot, then those of the world.
 ContactShape InspectedGroup::shapeOf(std::size_t instance, const std::vector<Eigen::Isometry3d>& link_poses) const
 {
@@ -148,7 +114,7 @@ ContactShape InspectedGroup::shapeOf(std::size_t instance, const std::vector<Eig
   const ShapeInstance& shape =
       is_robot ? problem().robot[instance] : problem().world[instance - problem().robot.size()];
   const Eigen::Isometry3d pose = is_robot ? link_poses[static_cast<std::size_t>(shape.link)] * shape.pose : shape.pose;
-  return {&prepared_.forest->tree(shape.tree), pose, isConvex(shape.tree)};
+  return {&prepared_.forest->tree(shape.tree), pose, convex_.isConvex(shape.tree)};
 }
 
 /// From the robot to the half-space.
@@ -235,16 +201,5 @@ double InspectedGroup::leastDepth(const CollidingPair& pair, const std::vector<E
     depth = std::max(depth, leastDepthOf(shapes, pair.contacts.front().point));
   }
   return depth;
-}
-
-std::array<Eigen::Vector3d, 2> InspectedGroup::nearestPoints(const InstancePair& pair, double clearance,
-                                                             const std::vector<Eigen::Isometry3d>& link_poses) const
-{
-  const ContactShape a = shapeOf(pair[0], link_poses);
-  if (pair[1] < first_half_space_)
-    return nearestPointsOf(a, shapeOf(pair[1], link_poses), clearance + requiredDistance(problem(), pair));
-  const WorldHalfSpace& b = problem().half_spaces[pair[1] - first_half_space_];
-  const Eigen::Vector3d point = contactWithHalfSpace(a, {b.normal, b.offset}, 0.0).point;
-  return {point, point - (b.normal.dot(point) - b.offset) * b.normal};
 }
 }  // namespace gpu_planning_scene::core

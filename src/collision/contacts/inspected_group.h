@@ -1,9 +1,6 @@
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -15,6 +12,7 @@
 #include "collision/contacts/body_contacts.h"
 #include "collision/contacts/body_pairs.h"
 #include "collision/contacts/clearance_search.h"
+#include "collision/contacts/convex_trees.h"
 #include "collision/exact/exact_checker.h"
 #include "collision/exact/forest_cache.h"
 #include "gpu_planning_scene/state_inspector.h"
@@ -25,27 +23,24 @@ namespace gpu_planning_scene::core
 class InspectionTrees
 {
  public:
-  /// Prepared data of one group of a scene.
+  /// The trees of one group of a scene.
   struct Prepared
   {
     std::shared_ptr<const CollisionProblem> problem;
     std::shared_ptr<const CpuForest> forest;
+    std::shared_ptr<const ObjectTree> objects;
     std::unique_ptr<const ExactChecker> exact;
-    std::unique_ptr<const ClearanceSearch> clearance;
   };
 
   Prepared prepare(const PlanningScene& scene, const std::string& group);
 
-  /// See isConvexSolid. The answer for a mesh is kept.
-  bool isConvex(const std::shared_ptr<const CpuTree>& tree);
-
-  void forgetUnused();
+  const std::shared_ptr<KnownConvexity>& convexity() const { return convexity_; }
 
  private:
-  std::mutex mutex_;  // guards all members below
+  std::mutex mutex_;  // guards `maker_` and `forests_`
   ProblemMaker maker_{optionsWithAllPairs()};
   ForestCache forests_;
-  std::map<std::weak_ptr<const CpuTree>, bool, std::owner_less<>> convex_;
+  std::shared_ptr<KnownConvexity> convexity_ = std::make_shared<KnownConvexity>();
 };
 
 /// Two bodies that collide.
@@ -61,9 +56,9 @@ struct CollidingPair
 class InspectedGroup
 {
  public:
-  InspectedGroup(const PlanningScene& scene, const std::string& group, std::shared_ptr<InspectionTrees> trees);
+  InspectedGroup(const PlanningScene& scene, const std::string& group, InspectionTrees& trees);
 
-  const ClearanceSearch& clearance() const { return *prepared_.clearance; }
+  const ClearanceSearch& clearance() const { return clearance_; }
   const CollisionProblem& problem() const { return *prepared_.problem; }
 
   /// The pairs of bodies that collide, ascending, each with at most `most` contacts. `most` is not 0.
@@ -72,29 +67,18 @@ class InspectedGroup
   /// No translation of at most this length separates the bodies, in metres; 0: no such length is known.
   double leastDepth(const CollidingPair& pair, const std::vector<Eigen::Isometry3d>& link_poses) const;
 
-  /// The nearest points of a pair with a clearance above 0, in the order of `pair`.
-  std::array<Eigen::Vector3d, 2> nearestPoints(const InstancePair& pair, double clearance,
-                                               const std::vector<Eigen::Isometry3d>& link_poses) const;
-
  private:
   ContactShape shapeOf(std::size_t instance, const std::vector<Eigen::Isometry3d>& link_poses) const;
-  bool isConvex(std::uint32_t tree) const;
   ShapeContact contactOfHalfSpace(const InstancePair& pair, const std::vector<Eigen::Isometry3d>& link_poses) const;
   std::vector<Contact> contactsOfBodies(const BodyPair& bodies, const std::vector<InstancePair>& colliding,
                                         const std::vector<Eigen::Isometry3d>& link_poses, std::size_t most) const;
   std::vector<ShapeContact> contactsOfShapes(const BodyPair& bodies, const std::vector<InstancePair>& colliding,
                                              const std::vector<Eigen::Isometry3d>& link_poses, std::size_t most) const;
 
-  std::shared_ptr<InspectionTrees> trees_;
   InspectionTrees::Prepared prepared_;
+  ConvexTrees convex_;
+  ClearanceSearch clearance_;
   BodyPairs pairs_;
   std::uint32_t first_half_space_;  // of the second index of an instance pair
-  enum class Known : std::uint8_t
-  {
-    Nothing,
-    Convex,
-    NotConvex
-  };
-  mutable std::vector<std::atomic<Known>> convexity_;  // one per tree
 };
 }  // namespace gpu_planning_scene::core

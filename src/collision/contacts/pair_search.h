@@ -9,6 +9,9 @@
 
 #include <Eigen/Geometry>
 
+#include "collision/contacts/body_contacts.h"
+#include "collision/contacts/clearance_search.h"
+#include "collision/contacts/convex_trees.h"
 #include "collision/exact/cpu_shape_pair.h"
 #include "collision/exact/pair_clearance.h"
 #include "collision/problem/collision_problem.h"
@@ -41,15 +44,21 @@ inline DistanceBounds distanceBounds(const Eigen::AlignedBox3d& a, const Eigen::
 /// body of the robot; distances are metres beyond the required distance.
 /// - reach(body): pairs of this body with the world matter only if they are nearer than this.
 /// - reach(bodies): this pair of bodies matters only if it is nearer than this.
-/// - take(bodies, instances, clearance): receives a pair that is nearer than its reach; 0: it collides.
+/// - take(pair): receives a pair that is nearer than its reach. A clearance of 0 without points: it collides.
 class PairSearch
 {
  public:
   /// `objects` must be built over worldBounds(). `world_bounds`: boxes of the world's instances, without padding.
   /// `link_poses`: in the planning frame. All must outlive the search.
   PairSearch(const CollisionProblem& problem, const std::shared_ptr<const CpuForest>& forest, const ObjectTree& objects,
-             const std::vector<Eigen::AlignedBox3d>& world_bounds, const Eigen::Isometry3d* link_poses)
-    : problem_(problem), forest_(*forest), pair_(forest), objects_(objects), world_bounds_(world_bounds)
+             const ConvexTrees& convex, const std::vector<Eigen::AlignedBox3d>& world_bounds,
+             const Eigen::Isometry3d* link_poses)
+    : problem_(problem),
+      forest_(*forest),
+      pair_(forest),
+      objects_(objects),
+      convex_(convex),
+      world_bounds_(world_bounds)
   {
     for (const ShapeInstance& instance : problem.robot)
     {
@@ -170,10 +179,14 @@ class PairSearch
     if (std::max(0.0, bounds.lower - required) >= reach)
       return;
     const double most = std::isfinite(reach) ? reach : std::max(0.0, bounds.upper - required);
-    const bool collides = bounds.lower <= required && collidesWith(other, pair[0], required);
-    const double found = collides ? 0.0 : clearanceOf(other, pair[0], required, most);
-    if (found < reach)
-      nearest.take(bodies, pair, found);
+    NearBodies found;
+    found.bodies = bodies;
+    if (bounds.lower <= required && collidesWith(other, pair[0], required))
+      found.clearance = 0.0;
+    else
+      approach(other, pair[0], required, most, found);
+    if (found.clearance < reach)
+      nearest.take(found);
   }
 
   bool collidesWith(const ShapeWithPose& other, std::uint32_t instance, double required)
@@ -186,23 +199,44 @@ class PairSearch
     return pair_.collide(problem_.robot[instance].tree, poses_[instance], other, required, scratch_);
   }
 
-  /// The clearance of a pair that does not collide, or `most` if it is not below `most`.
-  double clearanceOf(const ShapeWithPose& other, std::uint32_t instance, double required, double most)
+  ContactShape shapeOf(std::uint32_t tree, const Eigen::Isometry3d& pose) const
   {
-    return pairClearance(forest_.tree(problem_.robot[instance].tree), poses_[instance], forest_.tree(other.tree),
-                         other.pose, required, most, scratch_);
+    return {&forest_.tree(tree), pose, convex_.isConvex(tree)};
   }
 
-  double clearanceOf(const PlacedHalfSpace& other, std::uint32_t instance, double required, double most)
+  /// Sets the clearance and the points of a pair that does not collide; the clearance alone, to `most`, if it is not
+  /// below `most`.
+  void approach(const ShapeWithPose& other, std::uint32_t instance, double required, double most, NearBodies& found)
+  {
+    const ContactShape a = shapeOf(problem_.robot[instance].tree, poses_[instance]);
+    const ContactShape b = shapeOf(other.tree, other.pose);
+    if (hasExactSeparation(a, b))
+    {
+      const ConvexSeparation hulls = hullSeparation(a, b);
+      found.clearance = std::clamp(-hulls.depth - required, 0.0, most);
+      found.points = {hulls.on_a, hulls.on_b};
+      return;
+    }
+    const PairClearance nearest = pairClearance(*a.tree, a.pose, *b.tree, b.pose, required, most, scratch_);
+    found.clearance = nearest.clearance;
+    if (nearest.parts)
+      found.points = nearestPointsOf(a, b, *nearest.parts);
+  }
+
+  void approach(const PlacedHalfSpace& other, std::uint32_t instance, double required, double most, NearBodies& found)
   {
     const auto within = [&](double distance) { return collidesWith(other, instance, required + distance); };
-    return within(most) ? bisectLeast(0.0, most, within) : most;
+    found.clearance = within(most) ? bisectLeast(0.0, most, within) : most;
+    const ContactShape a = shapeOf(problem_.robot[instance].tree, poses_[instance]);
+    const Eigen::Vector3d point = contactWithHalfSpace(a, other, 0.0).point;
+    found.points = {point, point - (other.normal.dot(point) - other.offset) * other.normal};
   }
 
   const CollisionProblem& problem_;
   const CpuForest& forest_;
   CpuShapePair pair_;
   const ObjectTree& objects_;
+  const ConvexTrees& convex_;
   const std::vector<Eigen::AlignedBox3d>& world_bounds_;
   std::vector<Eigen::Isometry3d> poses_;  // of the robot's instances, in the planning frame
   std::vector<Eigen::AlignedBox3d> bounds_;

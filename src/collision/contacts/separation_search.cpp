@@ -202,7 +202,7 @@ std::vector<ShapeParts> meetingParts(const ContactPair& pair, std::size_t most, 
   if (!parts.empty())
     return parts;
   const double farthest = a.tree->half.norm() + b.tree->half.norm() + pair.required;
-  const double distance = pairClearance(*a.tree, a.pose, *b.tree, b.pose, 0.0, farthest, scratch);
+  const double distance = pairClearance(*a.tree, a.pose, *b.tree, b.pose, 0.0, farthest, scratch).clearance;
   return crossingsOf(a, b, distance + kDistanceAccuracy, most);
 }
 

@@ -14,6 +14,14 @@
 // The public face of this folder: it validates states, prepares each group once, and shares the states among the cores.
 namespace gpu_planning_scene::core
 {
+namespace
+{
+BodyPair ascending(const BodyPair& bodies)
+{
+  return {std::min(bodies[0], bodies[1]), std::max(bodies[0], bodies[1])};
+}
+}  // namespace
+
 struct StateInspector::Impl
 {
   Impl(std::shared_ptr<const PlanningScene> the_scene, std::shared_ptr<InspectionTrees> the_trees)
@@ -37,7 +45,7 @@ const InspectedGroup& StateInspector::Impl::inspected(const std::string& group)
 {
   const std::lock_guard<std::mutex> lock(mutex);
   const auto known = groups.find(group);
-  return known != groups.end() ? known->second : groups.try_emplace(group, *scene, group, trees).first->second;
+  return known != groups.end() ? known->second : groups.try_emplace(group, *scene, group, *trees).first->second;
 }
 
 template <class Work>
@@ -62,7 +70,7 @@ StateInspector::StateInspector(std::shared_ptr<const PlanningScene> scene, const
   impl_ =
       std::make_unique<Impl>(std::move(scene), previous ? previous->impl_->trees : std::make_shared<InspectionTrees>());
   impl_->inspected("");
-  impl_->trees->forgetUnused();
+  impl_->trees->convexity()->forgetUnused();
 }
 
 StateInspector::~StateInspector() = default;
@@ -110,7 +118,11 @@ std::vector<Clearance> StateInspector::clearances(const double* states, std::siz
   impl_->forEachState(
       states, count, group,
       [&](const InspectedGroup& inspected, std::size_t i, const double*, const std::vector<Eigen::Isometry3d>& poses)
-      { found[i] = inspected.clearance().find(poses.data()).clearance; });
+      {
+        const NearestOfState nearest = inspected.clearance().find(poses.data());
+        found[i] = {nearest.world.clearance, nearest.self.clearance, ascending(nearest.world.bodies),
+                    ascending(nearest.self.bodies)};
+      });
   return found;
 }
 

@@ -24,53 +24,30 @@ constexpr double kMargin = 1e-9;  // metres
 
 /// The clearance found so far. For two parts, within(v) of update() tells whether they are within the distance v, and
 /// distance() is an estimate of their distance.
-class LeastClearance
+class Best
 {
  public:
-  LeastClearance(double required, double most) : required_(required), clearance_(most) {}
+  Best(double required, double most) : required_(required), clearance_(most) {}
 
-  double clearance() const { return clearance_; }
+  PairClearance found() const { return {clearance_, parts_}; }
   /// Nodes that are farther from each other than this cannot improve the clearance.
   double reach() const { return required_ + clearance_ + kMargin; }
 
   /// Returns whether the parts are nearer than the best so far.
   template <class Within, class Distance>
-  bool update(const ShapeParts& /*parts*/, const Within& within, const Distance& distance)
+  bool update(const ShapeParts& parts, const Within& within, const Distance& distance)
   {
     const auto meets = [&](double x) { return within(required_ + x); };
     if (!meets(clearance_))
       return false;
     clearance_ = bisectLeast(0.0, clearance_, meets, distance() - required_);
+    parts_ = parts;
     return true;
   }
 
  private:
   double required_;
   double clearance_;
-};
-
-/// The nearest parts so far, by the estimates of their distances.
-class LeastDistance
-{
- public:
-  explicit LeastDistance(double most) : distance_(most) {}
-
-  const std::optional<ShapeParts>& parts() const { return parts_; }
-  double reach() const { return distance_ + kMargin; }
-
-  template <class Within, class Distance>
-  bool update(const ShapeParts& parts, const Within& /*within*/, const Distance& distance)
-  {
-    const double found = distance();
-    if (found >= distance_)
-      return false;
-    distance_ = found;
-    parts_ = parts;
-    return true;
-  }
-
- private:
-  double distance_;
   std::optional<ShapeParts> parts_;
 };
 
@@ -104,7 +81,6 @@ class NearestFirst
 };
 
 /// The search in two meshes.
-template <class Best>
 class SurfaceSearch
 {
  public:
@@ -194,7 +170,6 @@ class SurfaceSearch
   WidePlacement in_b_;
 };
 
-template <class Best>
 void surfaceApartFromSolid(const CpuTree& mesh, const CpuTree& solid, const Isometry3d& mesh_in_solid, Best& best,
                            CpuShapePair::Scratch& scratch)
 {
@@ -233,14 +208,15 @@ void surfaceApartFromSolid(const CpuTree& mesh, const CpuTree& solid, const Isom
     }
   }
 }
+}  // namespace
 
-/// Offers the parts of two shapes that may be nearest to `best`. The parts of a mesh and a solid begin with those of
-/// the mesh. `b_in_a`: the pose of b in the frame of a.
-template <class Best>
-void search(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, Best& best, CpuShapePair::Scratch& scratch)
+PairClearance pairClearance(const CpuTree& a, const Isometry3d& pose_a, const CpuTree& b, const Isometry3d& pose_b,
+                            double required, double most, CpuShapePair::Scratch& scratch)
 {
+  Best best(required, most);
+  const Isometry3d b_in_a = relativePose(pose_a, pose_b);
   if (a.mesh && b.mesh)
-    SurfaceSearch<Best>(a, b, b_in_a, best).run(scratch);
+    SurfaceSearch(a, b, b_in_a, best).run(scratch);
   else if (a.mesh)
     surfaceApartFromSolid(a, b, b_in_a.inverse(), best, scratch);
   else if (b.mesh)
@@ -250,25 +226,9 @@ void search(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, Best& 
         {ShapeParts::kWhole, ShapeParts::kWhole},
         [&](double distance) { return solidsWithin(a.shape, b.shape, b_in_a, distance); },
         [&] { return distanceOfSolids(a.shape, b.shape, b_in_a); });
-}
-}  // namespace
-
-double pairClearance(const CpuTree& a, const Isometry3d& pose_a, const CpuTree& b, const Isometry3d& pose_b,
-                     double required, double most, CpuShapePair::Scratch& scratch)
-{
-  LeastClearance best(required, most);
-  search(a, b, relativePose(pose_a, pose_b), best, scratch);
-  return best.clearance();
-}
-
-std::optional<ShapeParts> nearestParts(const CpuTree& a, const Isometry3d& pose_a, const CpuTree& b,
-                                       const Isometry3d& pose_b, double most, CpuShapePair::Scratch& scratch)
-{
-  LeastDistance best(most);
-  search(a, b, relativePose(pose_a, pose_b), best, scratch);
-  std::optional<ShapeParts> parts = best.parts();
-  if (parts && !a.mesh && b.mesh)
-    std::swap(parts->of_a, parts->of_b);
-  return parts;
+  PairClearance found = best.found();
+  if (found.parts && !a.mesh && b.mesh)
+    std::swap(found.parts->of_a, found.parts->of_b);
+  return found;
 }
 }  // namespace gpu_planning_scene::core

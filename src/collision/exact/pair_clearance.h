@@ -34,12 +34,6 @@ double bisectLeast(double low, double high, const Predicate& holds,
   return low;
 }
 
-/// The clearance of two shapes that do not collide with the required distance `required`: the least x above 0 for which
-/// they collide with the required distance `required` + x, as CpuShapePair decides it. If the clearance is `most` or
-/// more, the result is `most`. Otherwise the result is at most 1e-6 m below the clearance, and never above it.
-double pairClearance(const CpuTree& a, const Eigen::Isometry3d& pose_a, const CpuTree& b,
-                     const Eigen::Isometry3d& pose_b, double required, double most, CpuShapePair::Scratch& scratch);
-
 /// Parts of two shapes: a triangle of each mesh, or a primitive as a whole.
 struct ShapeParts
 {
@@ -49,8 +43,17 @@ struct ShapeParts
   std::uint32_t of_b;
 };
 
-/// The parts that are nearest to each other, by distances in double arithmetic; no value if none are nearer than
-/// `most`. The shapes must not collide.
-std::optional<ShapeParts> nearestParts(const CpuTree& a, const Eigen::Isometry3d& pose_a, const CpuTree& b,
-                                       const Eigen::Isometry3d& pose_b, double most, CpuShapePair::Scratch& scratch);
+/// The clearance of two shapes, in metres, and parts that have it up to 1e-6 m.
+struct PairClearance
+{
+  double clearance;
+  std::optional<ShapeParts> parts;  ///< no value if the clearance is not below `most`
+};
+
+/// The clearance of two shapes that do not collide with the required distance `required`: the least x above 0 for which
+/// they collide with the required distance `required` + x, as CpuShapePair decides it. If the clearance is `most` or
+/// more, the result is `most`. Otherwise the result is at most 1e-6 m below the clearance, and never above it.
+PairClearance pairClearance(const CpuTree& a, const Eigen::Isometry3d& pose_a, const CpuTree& b,
+                            const Eigen::Isometry3d& pose_b, double required, double most,
+                            CpuShapePair::Scratch& scratch);
 }  // namespace gpu_planning_scene::core
