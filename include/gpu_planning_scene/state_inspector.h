@@ -63,6 +63,8 @@ struct DistanceQuery
   /// True: only the nearest pair of each link and attached object. It takes much less time than all pairs.
   bool nearest_of_each_body = false;
   bool gradients = true;
+  /// False: a pair in collision has the distance 0, and neither points nor a normal. It takes less time.
+  bool signed_distance = true;
 };
 
 /// The distance of a pair of bodies.
@@ -79,7 +81,7 @@ struct BodyDistance
   /// As NearestPair::points, in the order of the bodies.
   std::array<Eigen::Vector3d, 2> points;
   /// Unit length, in the planning frame, from the first body to the second. If the second body moves along it, the
-  /// distance grows. NaN if the surfaces touch without a collision: such a distance has no direction.
+  /// distance grows. NaN if the surfaces are nearer than 1e-9 m without a collision: such a distance has no direction.
   Eigen::Vector3d normal;
 };
 

@@ -86,10 +86,10 @@ struct Distances
 };
 
 Distances distances(const StateInspector& inspector, const py::object& states, const Arg<std::string>& group,
-                    Arg<double> range, Arg<bool> nearest_of_each_body, Arg<bool> gradients)
+                    Arg<double> range, Arg<bool> nearest_of_each_body, Arg<bool> gradients, Arg<bool> signed_distance)
 {
   const core::RobotModel& robot = *inspector.scene()->robot;
-  const core::DistanceQuery query = {range.value, nearest_of_each_body.value, gradients.value};
+  const core::DistanceQuery query = {range.value, nearest_of_each_body.value, gradients.value, signed_distance.value};
   Distances result;
   result.width = gradients.value ? robot.variables().size() : 0;
   std::int64_t state = 0;
@@ -255,13 +255,15 @@ void addStateInspector(py::module_& module)
       .def("clearances", &clearances, py::arg("states"), py::arg("group") = "",
            "The clearances of states, computed on all cores.\n\nstates: as in StateChecker.check. group: "
            "as in StateChecker.check. Returns Clearances. Raises Error as contacts does. Ctrl-C ends a long call.")
-      .def("distances", &distances, py::arg("states"), py::arg("group") = "",
-           py::arg("range") = std::numeric_limits<double>::infinity(), py::arg("nearest_of_each_body") = false,
-           py::arg("gradients") = true,
-           "The distances of the bodies of states, with nearest points, normals and gradients, computed on all "
-           "cores.\n\nstates, group: as in StateChecker.check. range: metres, above 0; pairs that are not nearer are "
-           "left out. nearest_of_each_body: only the nearest pair of each link and attached object, which takes much "
-           "less time. Returns BodyDistances. Raises Error as contacts does. Ctrl-C ends a long call.\n\n"
-           "    near = inspector.distances(states, range=0.1)\n    print(near.distance, near.gradient)");
+      .def(
+          "distances", &distances, py::arg("states"), py::arg("group") = "",
+          py::arg("range") = std::numeric_limits<double>::infinity(), py::arg("nearest_of_each_body") = false,
+          py::arg("gradients") = true, py::arg("signed_distance") = true,
+          "The distances of the bodies of states, with nearest points, normals and gradients, computed on all "
+          "cores.\n\nstates, group: as in StateChecker.check. range: metres, above 0; pairs that are not nearer are "
+          "left out. nearest_of_each_body: only the nearest pair of each link and attached object, which takes much "
+          "less time. signed_distance: False: pairs in collision have the distance 0, and neither points nor a normal, "
+          "which takes less time. Returns BodyDistances. Raises Error as contacts does. Ctrl-C ends a long call.\n\n"
+          "    near = inspector.distances(states, range=0.1)\n    print(near.distance, near.gradient)");
 }
 }  // namespace gpu_planning_scene::python

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "collision/bounds/problem_maker.h"
+#include "collision/geometry/triangle_pair.h"
 
 namespace gpu_planning_scene::core
 {
@@ -64,15 +65,35 @@ std::vector<DistanceTruth::Placed> DistanceTruth::shapesOf(std::int32_t body,
   std::vector<Placed> placed;
   for (const ShapeInstance& each : problem_->robot)
     if (each.body == body)
-      placed.push_back({shapes_[each.tree].get(),
-                        link_poses[static_cast<std::size_t>(each.link)] * oracle::Motion(each.pose), each.padding});
+      placed.push_back(
+          {each.tree, link_poses[static_cast<std::size_t>(each.link)] * oracle::Motion(each.pose), each.padding});
   for (const ShapeInstance& each : problem_->world)
     if (each.body == body)
-      placed.push_back({shapes_[each.tree].get(), oracle::Motion(each.pose), each.padding});
+      placed.push_back({each.tree, oracle::Motion(each.pose), each.padding});
   for (std::size_t k = 0; k < problem_->half_spaces.size(); ++k)
     if (problem_->half_spaces[k].body == body)
-      placed.push_back({shapes_[problem_->shapes.size() + k].get(), {}, problem_->half_spaces[k].padding});
+      placed.push_back({problem_->shapes.size() + k, {}, problem_->half_spaces[k].padding});
   return placed;
+}
+
+/// The distance of a point from the surface of a mesh, or from another shape.
+double DistanceTruth::distanceTo(const Placed& shape, const Vector3d& point) const
+{
+  const auto* mesh = shape.tree < problem_->shapes.size()
+                         ? std::get_if<std::shared_ptr<const Mesh>>(&problem_->shapes[shape.tree])
+                         : nullptr;
+  oracle::Motion at;
+  at.translation = oracle::Vector(point);
+  if (!mesh)
+    return oracle::distance(*shapes_[shape.tree], shape.pose, oracle::PreparedShape(Sphere{1e-12}), at);
+  const Vector3d local = (shape.pose.inverse() * at.translation).toDouble();
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [i, j, k] : (*mesh)->triangles)
+  {
+    const auto& vertices = (*mesh)->vertices;
+    least = std::min(least, (nearestPoint({vertices[i], vertices[j], vertices[k]}, local) - local).norm());
+  }
+  return least;
 }
 
 /// The shapes of a body have one padding.
@@ -117,11 +138,8 @@ DistanceFaults DistanceTruth::compareAllPairs(const double* state, const BodyDis
     for (std::size_t end = 0; end < 2; ++end)
     {
       double distance = std::numeric_limits<double>::infinity();
-      const oracle::PreparedShape point(Sphere{1e-9});
-      oracle::Motion at;
-      at.translation = oracle::Vector(pair.points[end]);
       for (const Placed& shape : shapesOf(pair.bodies[end], poses))
-        distance = std::min(distance, oracle::distance(*shape.shape, shape.pose, point, at));
+        distance = std::min(distance, distanceTo(shape, pair.points[end]));
       faults.point_error = std::max(faults.point_error, distance);
     }
   }
@@ -168,8 +186,8 @@ bool DistanceTruth::collidesAfter(const double* state, const BodyDistance& pair,
     bool collides = false;
     for (const Placed& a : first)
       for (const Placed& b : second)
-        collides = collides || oracle::verdict(*a.shape, a.pose, *b.shape, shifted(length * direction, b.pose),
-                                               required) != oracle::Verdict::Free;
+        collides = collides || oracle::verdict(*shapes_[a.tree], a.pose, *shapes_[b.tree],
+                                               shifted(length * direction, b.pose), required) != oracle::Verdict::Free;
     if (!collides)
       return false;
   }

@@ -48,12 +48,13 @@ class DistanceTruth
  private:
   struct Placed
   {
-    const oracle::PreparedShape* shape;
+    std::size_t tree;  // index into `shapes_`
     oracle::Motion pose;
     double padding;
   };
 
   std::vector<Placed> shapesOf(std::int32_t body, const std::vector<oracle::Motion>& link_poses) const;
+  double distanceTo(const Placed& shape, const Eigen::Vector3d& point) const;
   double requiredOf(const BodyPair& bodies) const;
 
   std::shared_ptr<const PlanningScene> scene_;

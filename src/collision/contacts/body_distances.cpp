@@ -69,12 +69,14 @@ BodyDistance distanceFrom(std::int32_t first, const CollidingPair& pair, double 
   return found;
 }
 
-/// The distance of a pair that does not collide.
+/// The distance of a pair without its contact.
 BodyDistance distanceOf(const NearBodies& pair)
 {
   BodyDistance found;
   found.bodies = pair.bodies;
   found.distance = pair.clearance;
+  if (collides(pair))
+    found.depth_at_least = 0.0;
   found.points = pair.points;
   found.normal = directionFrom(pair.points[0], pair.points[1]);
   return found;
@@ -134,7 +136,8 @@ StateDistances distancesOf(const RobotModel& robot, const InspectedGroup& group,
                  ? pair[0] == first || pair[1] == first
                  : pair == BodyPair{std::min(first, near.bodies[1]), std::max(first, near.bodies[1])};
     };
-    const CollidingPair* colliding = near.clearance > 0.0 ? nullptr : collisions.deepest(isWanted);
+    const bool has_contact = query.signed_distance && near.clearance == 0.0;
+    const CollidingPair* colliding = has_contact ? collisions.deepest(isWanted) : nullptr;
     found.pairs.push_back(colliding ? distanceFrom(near.bodies[0], *colliding, group.leastDepth(*colliding, link_poses))
                                     : distanceOf(near));
   }

@@ -26,6 +26,11 @@ struct NearBodies
                                            Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())};
 };
 
+inline bool collides(const NearBodies& pair)
+{
+  return pair.points[0].hasNaN();
+}
+
 /// The nearest pairs of a state; without bodies if no pair is checked.
 struct NearestOfState
 {
