@@ -150,7 +150,8 @@ DistanceFaults DistanceTruth::compareAllPairs(const double* state, const BodyDis
 
 double DistanceTruth::gradientError(const double* state, const BodyDistance& pair, const double* gradient) const
 {
-  constexpr double kStep = 1e-6;  // radians or metres
+  // Radians or metres: short against the distance, because the slope turns with the points.
+  const double step = std::clamp(1e-4 * pair.distance, 1e-9, 1e-6);
   const RobotModel& robot = *scene_->robot;
   const BodyPair bodies = ascendingBodies(pair.bodies);
   std::vector<double> moved(state, state + robot.variables().size());
@@ -160,10 +161,10 @@ double DistanceTruth::gradientError(const double* state, const BodyDistance& pai
   double error = 0.0;
   for (std::size_t v = 0; v < moved.size(); ++v)
   {
-    moved[v] = state[v] + kStep;
-    const double above = (clearance() - here) / kStep;
-    moved[v] = state[v] - kStep;
-    const double below = (here - clearance()) / kStep;
+    moved[v] = state[v] + step;
+    const double above = (clearance() - here) / step;
+    moved[v] = state[v] - step;
+    const double below = (here - clearance()) / step;
     moved[v] = state[v];
     error = std::max({error, gradient[v] - std::max(above, below), std::min(above, below) - gradient[v]});
   }
