@@ -4,8 +4,8 @@
 Topics: joint_states in; command in and limited_command out (sensor_msgs/JointState with names and velocities, rad/s or
 m/s). Each command is scaled by the distances of the next ~horizon seconds (0.5). A pair of bodies that comes nearer
 counts by its least distance: ~slow (0.1 m) and more leave the command as it is, ~stop (0.02 m) and less stop it.
-~group: the group that moves. ~node: the planning_scene_node (/planning_scene). If the node gives no answer, or the joint
-values are older than 0.25 s, the velocities are 0. The controller must stop by itself where no command comes any
+~group: the group that moves. ~node: the planning_scene_node (/planning_scene). Without an answer of the node, or if
+joint values are older than 0.25 s, the velocities are 0. The controller must stop by itself where no command comes any
 more."""
 import math
 
