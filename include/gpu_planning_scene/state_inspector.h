@@ -70,18 +70,19 @@ struct DistanceQuery
 /// The distance of a pair of bodies.
 struct BodyDistance
 {
-  BodyPair bodies;  ///< body indices; the first is a link or an attached object
-  /// Metres beyond the required distance, as NearestPair::distance. In collision it is minus the depth of the pair's
-  /// deepest contact: the length of a translation that separates the bodies. For bodies of several shapes or that are
-  /// not convex, a shorter translation may exist.
+  BodyPair bodies;        ///< body indices; the first is a link or an attached object
+  bool collides = false;  ///< by the exact checker
+  /// Metres beyond the required distance, as NearestPair::distance; a pair that is free may have 0. In collision: minus
+  /// the depth of the pair's deepest contact, which is the length of a translation that separates the bodies; a shorter
+  /// translation may exist.
   double distance;
-  /// In collision: no translation shorter than this separates the bodies; 0: no such length is known. NaN: no
-  /// collision.
-  double depth_at_least = std::numeric_limits<double>::quiet_NaN();
+  /// In collision: no translation shorter than this separates the bodies. 0: no such length is known.
+  double depth_at_least = 0.0;
   /// As NearestPair::points, in the order of the bodies.
   std::array<Eigen::Vector3d, 2> points;
   /// Unit length, in the planning frame, from the first body to the second. If the second body moves along it, the
-  /// distance grows. NaN if the surfaces are nearer than 1e-9 m without a collision: such a distance has no direction.
+  /// distance grows. NaN if the surfaces are nearer than 1e-9 m without a collision, because such a distance has no
+  /// direction, and in collision without signed_distance.
   Eigen::Vector3d normal;
 };
 
@@ -94,13 +95,13 @@ struct BodyDistances
   /// of the bodies.
   std::vector<BodyDistance> pairs;
   /// Row-major, one row per pair: the derivative of the distance by each variable, in metres per unit of the variable.
-  /// Where two points are equally near, it is that of the points of the pair. In collision, it is that of the contact,
-  /// which moves with the bodies. The derivatives by the values of a quaternion are those before it is normalised. NaN
-  /// without a normal. Empty unless the query has gradients.
+  /// Where other points are as near, up to 1e-6 m, it is that of the points of the pair. In collision, it is that of
+  /// the contact, which moves with the bodies. The derivatives by the values of a quaternion are those before it is
+  /// normalised. A row without a normal is NaN. Empty unless the query has gradients.
   std::vector<double> gradients;
 };
 
-/// Computes contacts and clearances of states of one scene. A clearance takes about a hundred times as long as a check.
+/// Computes contacts, clearances and distances of states of one scene. They take much longer than a check.
 /// Thread-safe.
 class StateInspector
 {

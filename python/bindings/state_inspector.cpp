@@ -103,7 +103,7 @@ Distances distances(const StateInspector& inspector, const py::object& states, c
       result.states.insert(result.states.end(), next.first[i + 1] - next.first[i], state);
   };
   const Rows rows = rowsFrom(states, robot, "states", &inspector.scene()->current_state);
-  append(rows.data(), 0);  // finds a fault of the query also without states
+  withoutLock([&] { append(rows.data(), 0); });  // finds a fault of the query also without states
   inParts(rows, robot.variables().size(), append);
   return result;
 }
@@ -156,14 +156,16 @@ void addDistances(py::module_& module)
           "bodies", [](const py::object& self) { return ofPairs<std::int32_t>(self, &BodyDistance::bodies, {2}); },
           "Body indices; the first is a link or an attached object. Shape (n, 2), int32.")
       .def_property_readonly(
+          "collides", [](const py::object& self) { return ofPairs<bool>(self, &BodyDistance::collides, {}); },
+          "Whether the bodies collide. Shape (n,), bool.")
+      .def_property_readonly(
           "distance", [](const py::object& self) { return ofPairs<double>(self, &BodyDistance::distance, {}); },
-          "Metres beyond the required distance, at most 1e-6 m below the true value. In collision: minus the depth of "
-          "the deepest contact. Shape (n,).")
+          "Metres beyond the required distance, at most 1e-6 m below the true value and never above it; a pair that is "
+          "free may have 0. In collision: minus the depth of the deepest contact. Shape (n,).")
       .def_property_readonly(
           "depth_at_least",
           [](const py::object& self) { return ofPairs<double>(self, &BodyDistance::depth_at_least, {}); },
-          "In collision: no shorter translation separates the bodies; 0: no such length is known. NaN: no collision. "
-          "Shape (n,).")
+          "Metres. In collision: no shorter translation separates the bodies. 0: no such length is known. Shape (n,).")
       .def_property_readonly(
           "points",
           [](const py::object& self) {
@@ -173,8 +175,8 @@ void addDistances(py::module_& module)
           "contact. Shape (n, 2, 3).")
       .def_property_readonly(
           "normal", [](const py::object& self) { return ofPairs<double>(self, &BodyDistance::normal, {3}); },
-          "Unit length, from the first body to the second. NaN if the surfaces touch without a collision. Shape (n, "
-          "3).")
+          "Unit length, from the first body to the second. NaN if the surfaces touch without a collision, and in "
+          "collision without signed_distance. Shape (n, 3).")
       .def_property_readonly(
           "gradient",
           [](const py::object& self)
@@ -186,7 +188,8 @@ void addDistances(py::module_& module)
                           {static_cast<py::ssize_t>(width == 0 ? 0 : result.all.pairs.size()), width},
                           {width * size, size}, self);
           },
-          "The derivatives of the distance by the variables. Shape (n, variables), or (0, 0) without gradients.")
+          "The derivatives of the distance by the variables, in metres per radian or metre. A row without a normal is "
+          "NaN. Shape (n, variables), or (0, 0) without gradients.")
       .def(
           "__len__", [](const Distances& result) { return result.all.pairs.size(); });
 }
@@ -260,10 +263,12 @@ void addStateInspector(py::module_& module)
           py::arg("range") = std::numeric_limits<double>::infinity(), py::arg("nearest_of_each_body") = false,
           py::arg("gradients") = true, py::arg("signed_distance") = true,
           "The distances of the bodies of states, with nearest points, normals and gradients, computed on all "
-          "cores.\n\nstates, group: as in StateChecker.check. range: metres, above 0; pairs that are not nearer are "
-          "left out. nearest_of_each_body: only the nearest pair of each link and attached object, which takes much "
+          "cores.\n\nstates: as in StateChecker.check; one row is one state. group: as there. range: metres, above 0; "
+          "pairs that are not nearer are left out. nearest_of_each_body: only the nearest pair of each link and "
+          "attached object, which takes much "
           "less time. signed_distance: False: pairs in collision have the distance 0, and neither points nor a normal, "
-          "which takes less time. Returns BodyDistances. Raises Error as contacts does. Ctrl-C ends a long call.\n\n"
+          "which takes less time. Returns BodyDistances. Raises Error as contacts does, and if the range "
+          "is not above 0. Ctrl-C ends a long call.\n\n"
           "    near = inspector.distances(states, range=0.1)\n    print(near.distance, near.gradient)");
 }
 }  // namespace gpu_planning_scene::python

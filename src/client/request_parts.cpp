@@ -71,8 +71,18 @@ std::vector<CheckStates::Request> partsOf(const CheckStates::Request& request, c
   return parts;
 }
 
-CheckStates::Response joined(std::vector<CheckStates::Response> answers)
+CheckStates::Response joined(const CheckStates::Request& request, std::vector<CheckStates::Response> answers)
 {
+  // The variables that partsOf added come last.
+  const std::size_t named = request.joint_names.size();
+  for (CheckStates::Response& answer : answers)
+  {
+    if (named == 0 || answer.gradient_names.size() <= named)
+      continue;
+    answer.gradient_names.resize(named);
+    for (auto& distance : answer.distances)
+      distance.gradient.resize(named);
+  }
   CheckStates::Response whole = std::move(answers.front());
   std::set<std::string> messages = {whole.message};
   for (std::size_t i = 1; i < answers.size(); ++i)

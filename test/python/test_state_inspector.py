@@ -56,7 +56,8 @@ class StateInspector(Case):
         self.assertEqual([[1, 2]], np.unique(near.bodies, axis=0).tolist())
         np.testing.assert_allclose(near.distance[free], signed[free], rtol=0, atol=1.1e-6)
         np.testing.assert_array_equal(near.distance < 0, ~free)
-        self.assertTrue(np.all(np.isnan(near.depth_at_least) == free))
+        np.testing.assert_array_equal(near.collides, ~free)
+        self.assertTrue(np.all(near.depth_at_least[free] == 0))
         self.assertTrue(np.all(near.depth_at_least[~free] <= -near.distance[~free]))
         side = np.where(positions < 1, 1.0, -1.0)  # the direction to the post
         np.testing.assert_allclose(near.normal[free], side[free, None] * [1, 0, 0], atol=1e-9)

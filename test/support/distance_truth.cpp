@@ -26,6 +26,12 @@ std::shared_ptr<const CollisionProblem> problemWithAllPairs(const PlanningScene&
   return std::make_shared<const CollisionProblem>(ProblemMaker(optionsWithAllPairs()).make(scene, group, nullptr));
 }
 
+/// The larger error. A NaN is larger than any number, so that it is seen.
+double largest(double error, double other)
+{
+  return std::isnan(error) || error > other ? error : other;
+}
+
 oracle::Motion shifted(const Vector3d& translation, oracle::Motion motion)
 {
   motion.translation = motion.translation + oracle::Vector(translation);
@@ -33,14 +39,24 @@ oracle::Motion shifted(const Vector3d& translation, oracle::Motion motion)
 }
 }  // namespace
 
+void DistanceFaults::addDistance(double error)
+{
+  distance_error = largest(distance_error, error);
+}
+
+void DistanceFaults::addPoint(double error)
+{
+  point_error = largest(point_error, error);
+}
+
 DistanceFaults& DistanceFaults::operator+=(const DistanceFaults& other)
 {
   compared += other.compared;
   colliding += other.colliding;
   missing += other.missing;
   invented += other.invented;
-  distance_error = std::max(distance_error, other.distance_error);
-  point_error = std::max(point_error, other.point_error);
+  addDistance(other.distance_error);
+  addPoint(other.point_error);
   return *this;
 }
 
@@ -123,24 +139,24 @@ DistanceFaults DistanceTruth::compareAllPairs(const double* state, const BodyDis
     const double expected = known->second;
     truth.erase(known);
     ++faults.compared;
-    if (pair.distance < 0.0 || expected <= 0.0)
+    if (pair.collides || expected <= 0.0)
     {
       ++faults.colliding;
-      faults.invented += pair.distance >= 0.0 || expected > oracle::kTolerance ? 1 : 0;
+      faults.invented += !pair.collides || expected > oracle::kTolerance ? 1 : 0;
       continue;
     }
     // A clearance is a lower bound.
-    faults.distance_error =
-        std::max({faults.distance_error, expected - pair.distance,
-                  pair.distance > expected + 1e-9 ? pair.distance - expected + kClearanceError : 0.0});
-    const double between = (pair.points[1] - pair.points[0]).dot(pair.normal);
-    faults.point_error = std::max(faults.point_error, std::abs(between - expected - requiredOf(pair.bodies)));
+    faults.addDistance(pair.distance > expected + 1e-9 ? 1.0 : expected - pair.distance);
+    const double length = expected + requiredOf(pair.bodies);
+    if (length < 1e-8)
+      continue;  // such points have no direction
+    faults.addPoint(std::abs((pair.points[1] - pair.points[0]).dot(pair.normal) - length));
     for (std::size_t end = 0; end < 2; ++end)
     {
       double distance = std::numeric_limits<double>::infinity();
       for (const Placed& shape : shapesOf(pair.bodies[end], poses))
         distance = std::min(distance, distanceTo(shape, pair.points[end]));
-      faults.point_error = std::max(faults.point_error, distance);
+      faults.addPoint(distance);
     }
   }
   for (const auto& [bodies, clearance] : truth)
@@ -166,7 +182,8 @@ double DistanceTruth::gradientError(const double* state, const BodyDistance& pai
     moved[v] = state[v] - step;
     const double below = (here - clearance()) / step;
     moved[v] = state[v];
-    error = std::max({error, gradient[v] - std::max(above, below), std::min(above, below) - gradient[v]});
+    error = largest(error, gradient[v] - std::max(above, below));
+    error = largest(error, std::min(above, below) - gradient[v]);
   }
   return error;
 }

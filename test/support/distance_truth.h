@@ -16,11 +16,14 @@ namespace gpu_planning_scene::core
 struct DistanceFaults
 {
   std::size_t compared = 0;
-  std::size_t colliding = 0;  ///< of the compared pairs
-  std::size_t missing = 0;    ///< pairs that are nearer than the range, but were not found
-  std::size_t invented = 0;   ///< pairs that are farther, are not checked, or collide by only one of the two
-  double distance_error = 0.0;
-  double point_error = 0.0;  ///< of the points' distance from their bodies, and from each other along the normal
+  std::size_t colliding = 0;    ///< of the compared pairs
+  std::size_t missing = 0;      ///< pairs that are nearer than the range, but were not found
+  std::size_t invented = 0;     ///< pairs that are farther, are not checked, or collide by only one of the two
+  double distance_error = 0.0;  ///< NaN if one is NaN
+  double point_error = 0.0;     ///< of the points' distance from their bodies, and from each other along the normal
+
+  void addDistance(double error);
+  void addPoint(double error);
 
   DistanceFaults& operator+=(const DistanceFaults& other);
 };

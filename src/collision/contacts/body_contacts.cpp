@@ -138,15 +138,15 @@ ShapeContact contactWithHalfSpace(const ContactShape& a, const PlacedHalfSpace& 
 
 double leastDepthOf(const ContactPair& pair, const Vector3d& point)
 {
-  if (hasExactSeparation(pair.a, pair.b))
-  {
-    constexpr double kErrorPerSize = 1e-8;
-    const double sizes = pair.a.tree->half.norm() + pair.b.tree->half.norm();
-    return std::max(0.0, hullSeparation(pair.a, pair.b).depth + pair.required - kErrorPerSize * sizes);
-  }
-  // A ball around a point of both shapes is in each of them. They overlap until one has moved by the sum of the radii.
   const ConvexSeparation hulls = hullSeparation(pair.a, pair.b);
   double depth = 0.0;
+  if (pair.a.is_convex && pair.b.is_convex)
+  {
+    constexpr double kErrorPerSize = 1e-9;  // of a mesh that counts as convex
+    const double sizes = pair.a.tree->half.norm() + pair.b.tree->half.norm();
+    depth = std::max(0.0, hulls.least_depth + pair.required - kErrorPerSize * sizes);
+  }
+  // A ball around a point of both shapes is in each of them. They overlap until one has moved by the sum of the radii.
   for (const Vector3d& tried : {point, hulls.on_a, hulls.on_b, Vector3d(0.5 * (hulls.on_a + hulls.on_b))})
     if (contains(pair.a, tried) && contains(pair.b, tried))
       depth = std::max(depth, depthInside(pair.a, tried) + depthInside(pair.b, tried) + pair.required - 2.0 * kOnShape);

@@ -62,6 +62,7 @@ BodyDistance distanceFrom(std::int32_t first, const CollidingPair& pair, double 
   const bool swapped = contact.bodies[0] != first;
   BodyDistance found;
   found.bodies = {contact.bodies[swapped ? 1 : 0], contact.bodies[swapped ? 0 : 1]};
+  found.collides = true;
   found.distance = -contact.depth;
   found.depth_at_least = depth_at_least;
   found.points = {contact.point, contact.point};
@@ -75,20 +76,12 @@ BodyDistance distanceOf(const NearBodies& pair)
   BodyDistance found;
   found.bodies = pair.bodies;
   found.distance = pair.clearance;
-  if (collides(pair))
-    found.depth_at_least = 0.0;
+  found.collides = pair.collides;
   found.points = pair.points;
   found.normal = directionFrom(pair.points[0], pair.points[1]);
   return found;
 }
 
-/// The link that carries a body of the robot; -1 for an object of the world.
-int linkOf(const CollisionProblem& problem, std::int32_t body)
-{
-  const auto instance = std::find_if(problem.robot.begin(), problem.robot.end(),
-                                     [body](const ShapeInstance& each) { return each.body == body; });
-  return instance == problem.robot.end() ? -1 : instance->link;
-}
 }  // namespace
 
 NearestPairs nearestPairsOf(const PlanningScene& scene, const InspectedGroup& group,
@@ -105,9 +98,9 @@ NearestPairs nearestPairsOf(const PlanningScene& scene, const InspectedGroup& gr
     if (near.bodies == kNoPair)
       return {};
     const CollidingPair* deepest =
-        near.clearance > 0.0 ? nullptr
-                             : collisions.deepest([&](const BodyPair& pair)
-                                                  { return (is_world(pair[0]) || is_world(pair[1])) == of_world; });
+        !near.collides ? nullptr
+                       : collisions.deepest([&](const BodyPair& pair)
+                                            { return (is_world(pair[0]) || is_world(pair[1])) == of_world; });
     if (deepest)
     {
       const Contact& contact = deepest->contacts.front();
@@ -136,8 +129,7 @@ StateDistances distancesOf(const RobotModel& robot, const InspectedGroup& group,
                  ? pair[0] == first || pair[1] == first
                  : pair == BodyPair{std::min(first, near.bodies[1]), std::max(first, near.bodies[1])};
     };
-    const bool has_contact = query.signed_distance && near.clearance == 0.0;
-    const CollidingPair* colliding = has_contact ? collisions.deepest(isWanted) : nullptr;
+    const CollidingPair* colliding = query.signed_distance && near.collides ? collisions.deepest(isWanted) : nullptr;
     found.pairs.push_back(colliding ? distanceFrom(near.bodies[0], *colliding, group.leastDepth(*colliding, link_poses))
                                     : distanceOf(near));
   }
@@ -146,14 +138,19 @@ StateDistances distancesOf(const RobotModel& robot, const InspectedGroup& group,
   const std::size_t width = robot.variables().size();
   found.gradients.assign(found.pairs.size() * width, 0.0);
   for (std::size_t i = 0; i < found.pairs.size(); ++i)
-    for (const int end : {0, 1})
+  {
+    const BodyDistance& pair = found.pairs[i];
+    double* gradient = &found.gradients[i * width];
+    if (pair.normal.hasNaN())
     {
-      const BodyDistance& pair = found.pairs[i];
-      const int link = linkOf(group.problem(), pair.bodies[end]);
-      if (link >= 0)
-        addPointRates(robot, state, link_poses.data(), link, pair.points[end], pair.normal, end == 0 ? -1.0 : 1.0,
-                      &found.gradients[i * width]);
+      std::fill_n(gradient, width, std::numeric_limits<double>::quiet_NaN());
+      continue;
     }
+    for (const std::size_t end : {0, 1})
+      if (const int link = group.linkOf(pair.bodies[end]); link >= 0)
+        addPointRates(robot, state, link_poses.data(), link, pair.points[end], pair.normal, end == 0 ? -1.0 : 1.0,
+                      gradient);
+  }
   return found;
 }
 }  // namespace gpu_planning_scene::core

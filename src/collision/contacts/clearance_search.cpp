@@ -15,8 +15,8 @@ namespace
 /// Keeps the nearest pair of all.
 struct NearestOfAll
 {
-  double reach(std::int32_t /*body*/) const { return found.clearance; }
-  double reach(const BodyPair& /*bodies*/) const { return found.clearance; }
+  double reach(std::int32_t /*body*/) const { return found.order(); }
+  double reach(const BodyPair& /*bodies*/) const { return found.order(); }
   void take(const NearBodies& pair) { found = pair; }
 
   NearBodies found = {};
@@ -29,7 +29,7 @@ struct PairsWithin
   double reach(const BodyPair& bodies) const
   {
     const auto known = found.find(bodies);
-    return known == found.end() ? range : known->second.clearance;
+    return known == found.end() ? range : known->second.order();
   }
   void take(const NearBodies& pair) { found[pair.bodies] = pair; }
 
@@ -43,7 +43,7 @@ struct NearestOfBodies
   double reach(std::int32_t body) const
   {
     const auto known = found.find(body);
-    return known == found.end() ? range : known->second.clearance;
+    return known == found.end() ? range : known->second.order();
   }
   double reach(const BodyPair& bodies) const
   {
@@ -51,10 +51,14 @@ struct NearestOfBodies
   }
   void take(const NearBodies& pair)
   {
-    if (pair.clearance < reach(pair.bodies[0]))
+    if (pair.order() < reach(pair.bodies[0]))
       found[pair.bodies[0]] = pair;
-    if (is_self && pair.clearance < reach(pair.bodies[1]))
-      found[pair.bodies[1]] = {{pair.bodies[1], pair.bodies[0]}, pair.clearance, {pair.points[1], pair.points[0]}};
+    if (is_self && pair.order() < reach(pair.bodies[1]))
+    {
+      NearBodies& swapped = found[pair.bodies[1]] = pair;
+      std::swap(swapped.bodies[0], swapped.bodies[1]);
+      std::swap(swapped.points[0], swapped.points[1]);
+    }
   }
 
   double range;

@@ -15,21 +15,20 @@
 
 namespace gpu_planning_scene::core
 {
-/// Two bodies and those of their shape instances that are nearest to each other.
+/// Two bodies that are near to each other.
 struct NearBodies
 {
   BodyPair bodies = kNoPair;                                   ///< the first is a body of the robot
   double clearance = std::numeric_limits<double>::infinity();  ///< metres beyond the required distance, as Clearance
+  bool collides = false;
   /// The nearest points of the surfaces without padding, in the order of the bodies and in the planning frame; NaN if
   /// the bodies collide.
   std::array<Eigen::Vector3d, 2> points = {Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()),
                                            Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())};
-};
 
-inline bool collides(const NearBodies& pair)
-{
-  return pair.points[0].hasNaN();
-}
+  /// The clearance; below 0 if the bodies collide, so that a collision is nearer than a clearance that rounds to 0.
+  double order() const { return collides ? -1.0 : clearance; }
+};
 
 /// The nearest pairs of a state; without bodies if no pair is checked.
 struct NearestOfState

@@ -139,6 +139,7 @@ ConvexSeparation hullSeparation(const ContactShape& a, const ContactShape& b)
   found.on_a = a.pose * Vector3d(found.on_a + radius_a * found.normal);
   found.on_b = a.pose * Vector3d(found.on_b - radius_b * found.normal);
   found.depth += radius_a + radius_b;
+  found.least_depth += radius_a + radius_b;
   found.normal = (a.pose.linear() * found.normal).normalized();
   return found;
 }
@@ -147,7 +148,9 @@ bool hasExactSeparation(const ContactShape& a, const ContactShape& b)
 {
   const auto is_curved = [](const ContactShape& shape)
   { return std::holds_alternative<Cylinder>(shape.tree->shape) || std::holds_alternative<Cone>(shape.tree->shape); };
-  return a.is_convex && b.is_convex && !(is_curved(a) && is_curved(b));
+  constexpr double kLargest = 100.0;  // metres
+  return a.is_convex && b.is_convex && !(is_curved(a) && is_curved(b)) &&
+         a.tree->half.norm() + b.tree->half.norm() <= kLargest;
 }
 
 double reachOf(const ContactShape& shape, const Vector3d& direction)

@@ -92,6 +92,14 @@ InspectedGroup::InspectedGroup(const PlanningScene& scene, const std::string& gr
     pairs_(problem()),
     first_half_space_(static_cast<std::uint32_t>(problem().robot.size() + problem().world.size()))
 {
+  for (const ShapeInstance& instance : problem().robot)
+    links_[instance.body] = instance.link;
+}
+
+int InspectedGroup::linkOf(std::int32_t body) const
+{
+  const auto known = links_.find(body);
+  return known == links_.end() ? -1 : known->second;
 }
 
 std::vector<CollidingPair> InspectedGroup::collidingPairs(const std::vector<Eigen::Isometry3d>& link_poses,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -58,8 +59,14 @@ class InspectedGroup
  public:
   InspectedGroup(const PlanningScene& scene, const std::string& group, InspectionTrees& trees);
 
+  InspectedGroup(const InspectedGroup&) = delete;
+  InspectedGroup& operator=(const InspectedGroup&) = delete;
+
   const ClearanceSearch& clearance() const { return clearance_; }
   const CollisionProblem& problem() const { return *prepared_.problem; }
+
+  /// The link that carries a body of the robot; -1 for an object of the world.
+  int linkOf(std::int32_t body) const;
 
   /// The pairs of bodies that collide, ascending, each with at most `most` contacts. `most` is not 0.
   std::vector<CollidingPair> collidingPairs(const std::vector<Eigen::Isometry3d>& link_poses, std::size_t most) const;
@@ -79,6 +86,7 @@ class InspectedGroup
   ConvexTrees convex_;
   ClearanceSearch clearance_;
   BodyPairs pairs_;
-  std::uint32_t first_half_space_;  // of the second index of an instance pair
+  std::map<std::int32_t, int> links_;  // of the robot's bodies
+  std::uint32_t first_half_space_;     // of the second index of an instance pair
 };
 }  // namespace gpu_planning_scene::core

@@ -42,9 +42,9 @@ inline DistanceBounds distanceBounds(const Eigen::AlignedBox3d& a, const Eigen::
 ///
 /// `Nearest`, which self() and world() take, keeps the pairs that were found. In its functions, `bodies` begins with a
 /// body of the robot; distances are metres beyond the required distance.
-/// - reach(body): pairs of this body with the world matter only if they are nearer than this.
+/// - reach(body): pairs of this body with the world matter only if they are nearer than this. Below 0: none is nearer.
 /// - reach(bodies): this pair of bodies matters only if it is nearer than this.
-/// - take(pair): receives a pair that is nearer than its reach. A clearance of 0 without points: it collides.
+/// - take(pair): receives a pair whose order() is below its reach.
 class PairSearch
 {
  public:
@@ -129,7 +129,7 @@ class PairSearch
     {
       const auto [bound, index] = stack_.back();
       stack_.pop_back();
-      if (bound >= nearest.reach(problem_.robot[instance].body))
+      if (isOutOfReach(bound, nearest.reach(problem_.robot[instance].body)))
         continue;
       const Node& node = objects_.nodes()[index];
       if (node.count != 0)
@@ -174,20 +174,23 @@ class PairSearch
   void consider(const DistanceBounds& bounds, double required, std::int32_t body, const InstancePair& pair,
                 const Other& other, Nearest& nearest)
   {
-    const BodyPair bodies = {problem_.robot[pair[0]].body, body};
-    const double reach = nearest.reach(bodies);
-    if (std::max(0.0, bounds.lower - required) >= reach)
-      return;
-    const double most = std::isfinite(reach) ? reach : std::max(0.0, bounds.upper - required);
     NearBodies found;
-    found.bodies = bodies;
-    if (bounds.lower <= required && collidesWith(other, pair[0], required))
+    found.bodies = {problem_.robot[pair[0]].body, body};
+    const double reach = nearest.reach(found.bodies);
+    if (isOutOfReach(bounds.lower - required, reach))
+      return;
+    found.collides = bounds.lower <= required && collidesWith(other, pair[0], required);
+    if (found.collides)
       found.clearance = 0.0;
-    else
-      approach(other, pair[0], required, most, found);
-    if (found.clearance < reach)
+    else if (reach > 0.0)
+      approach(other, pair[0], required, std::min(reach, std::max(0.0, bounds.upper - required)), found);
+    if (found.order() < reach)
       nearest.take(found);
   }
+
+  /// Whether a pair with this lower bound of its clearance cannot be below the reach. A pair whose boxes overlap may
+  /// collide, which is nearer than any clearance.
+  static bool isOutOfReach(double lower, double reach) { return lower > 0.0 ? lower >= reach : reach < 0.0; }
 
   bool collidesWith(const ShapeWithPose& other, std::uint32_t instance, double required)
   {
@@ -204,8 +207,7 @@ class PairSearch
     return {&forest_.tree(tree), pose, convex_.isConvex(tree)};
   }
 
-  /// Sets the clearance and the points of a pair that does not collide; the clearance alone, to `most`, if it is not
-  /// below `most`.
+  /// Sets the clearance and the points of a pair that does not collide; the clearance is `most` if it is not below it.
   void approach(const ShapeWithPose& other, std::uint32_t instance, double required, double most, NearBodies& found)
   {
     const ContactShape a = shapeOf(problem_.robot[instance].tree, poses_[instance]);

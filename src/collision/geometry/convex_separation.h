@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include <Eigen/Geometry>
 
 #include "collision/geometry/convex_pair.h"
@@ -18,6 +20,10 @@ struct ConvexSeparation
   /// Points of a and b. Their difference on_a - on_b is depth * normal, up to the accuracy of the depth.
   Eigen::Vector3d on_a;
   Eigen::Vector3d on_b;
+  /// The least depth of all directions is not below this. It may be much less than the depth where curved surfaces, or
+  /// meshes that approximate them, overlap in many directions by nearly the same depth. Minus infinity: nothing is
+  /// known.
+  double least_depth = -std::numeric_limits<double>::infinity();
 };
 
 /// The direction for which the depth is least: the penetration depth of sets that overlap, minus the distance of

@@ -58,6 +58,7 @@ BodyDistanceMessage messageOf(const BodyDistances& distances, std::size_t pair, 
   const BodyDistance& found = distances.pairs[pair];
   BodyDistanceMessage message;
   message.state = static_cast<std::uint32_t>(state);
+  message.collides = static_cast<std::uint8_t>(found.collides);
   message.distance = found.distance;
   message.depth_at_least = found.depth_at_least;
   setBodies(message, found.bodies, scene);

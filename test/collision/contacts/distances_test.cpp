@@ -130,8 +130,8 @@ TEST_P(Distances, InCollisionKnowALengthThatDoesNotSeparateTheBodies)
     for (std::size_t k = found.first[i]; k < found.first[i + 1]; ++k)
     {
       const BodyDistance& pair = found.pairs[k];
-      EXPECT_EQ(std::isnan(pair.depth_at_least), pair.distance >= 0.0);
-      if (pair.distance >= 0.0)
+      EXPECT_EQ(pair.collides, pair.distance < 0.0);
+      if (!pair.collides)
         continue;
       EXPECT_GE(pair.depth_at_least, 0.0);
       EXPECT_LE(pair.depth_at_least, -pair.distance);
@@ -152,8 +152,8 @@ TEST_P(Distances, WithoutDepthsAreZeroInCollision)
   for (std::size_t k = 0; k < found.pairs.size(); ++k)
   {
     EXPECT_EQ(found.pairs[k].distance, std::max(0.0, with_depths.pairs[k].distance));
-    EXPECT_EQ(found.pairs[k].normal.hasNaN(), with_depths.pairs[k].distance < 0.0);
-    EXPECT_EQ(std::isnan(found.pairs[k].depth_at_least), std::isnan(with_depths.pairs[k].depth_at_least));
+    EXPECT_EQ(found.pairs[k].collides, with_depths.pairs[k].collides);
+    EXPECT_EQ(found.pairs[k].normal.hasNaN(), found.pairs[k].collides);
   }
 }
 

@@ -558,13 +558,14 @@ TEST_F(Service, DistancesHavePointsNormalsAndGradientsOfTheRequestsVariables)
   EXPECT_EQ("cart", apart.body_1);
   EXPECT_EQ(ContactInformation::WORLD_OBJECT, apart.body_type_2);
   EXPECT_NEAR(0.3, apart.distance, 2e-6) << "the cart reaches to 0.6 m, the wall begins at 0.9 m";
-  EXPECT_TRUE(std::isnan(apart.depth_at_least));
+  EXPECT_FALSE(apart.collides);
   EXPECT_NEAR(0.9, apart.point_2.x, 1e-6);
   EXPECT_NEAR(1.0, apart.normal.x, 1e-9);
   ASSERT_EQ(2u, apart.gradient.size());
   EXPECT_NEAR(-1.0, apart.gradient[0], 1e-9) << "the slide moves the cart to the wall";
   const BodyDistanceMessage deep = ofState(1);
   EXPECT_NEAR(-0.1, deep.distance, 1e-6) << "the cart reaches to 1.0 m";
+  EXPECT_TRUE(deep.collides);
   EXPECT_NEAR(0.1, deep.depth_at_least, 1e-6) << "two boxes: the depth is exact";
   EXPECT_NEAR(-1.0, deep.gradient[0], 1e-6);
   asked.distance_range = 0.25;
@@ -586,6 +587,9 @@ TEST_F(Service, AWrongRequestForDistancesIsRefused)
   CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.5});
   asked.distances = 3;
   expectRefusal(asked, "NEAREST_OF_EACH_BODY");
+  asked.distances = CheckStates::Request::NO_DISTANCES;
+  asked.distance_range = 0.1;
+  expectRefusal(asked, "NO_DISTANCES");
   asked.distances = CheckStates::Request::ALL_PAIRS;
   for (const double range : {-1.0, std::nan("")})
   {
