@@ -79,10 +79,10 @@ TEST(PairDistances, HaveTheRightPointsAlsoWithTinyGapsOverLargeFloors)
 
 TEST(PairDistances, FindTheShapeThatCollidesBesideOneThatNearlyTouches)
 {
-  // The first box is 0.5 micrometres above the floor, the second one 5 cm in it.
+  // The first box is 0.5 micrometres above the floor, which is a clearance of 0. The second one is 5 cm in the floor.
   const auto scene = sceneWith(
       element("<box size='0.2 0.2 0.2'/>") + element("<box size='0.2 0.2 0.2'/>", "<origin xyz='0.5 0 -0.05'/>"),
-      Box{{4.0, 4.0, 1.0}}, -0.5);
+      HalfSpace{Vector3d::UnitZ(), 0.0}, 0.0);
   for (const bool is_signed : {false, true})
   {
     const BodyDistance found = onlyPair(scene, 0.1 + 5e-7, is_signed);
@@ -125,17 +125,20 @@ TEST(PairDistances, InCollisionAreTheDepthsOfConvexBodies)
 
 TEST(PairDistances, NeverPromiseADepthThatATranslationAvoids)
 {
-  for (const double offset : {0.0, 1e-5, 7e-5, 1e-3})
-  {
-    // A sphere in a cylinder, beside its axis: the shortest way out is sideways.
-    const auto scene =
-        sceneWith(element("<sphere radius='0.02'/>", "<origin xyz='" + std::to_string(offset) + " 0 0'/>"),
-                  Cylinder{0.1, 4.0}, 0.0);
-    const BodyDistance found = onlyPair(scene, 0.0);
-    EXPECT_LE(found.depth_at_least, 0.1 - offset + 0.02 + 1e-9) << offset;
-    EXPECT_GE(found.depth_at_least, 0.1) << offset << ": not much less";
-    EXPECT_GE(-found.distance, found.depth_at_least);
-  }
+  // A sphere in a cylinder, beside its axis: the shortest way out is sideways.
+  for (const double length : {0.4, 0.7, 4.0})
+    for (const double offset : {0.0, 1e-5, 7e-5, 3e-4, 1e-3})
+      for (const double angle : {0.0, 0.4, 1.0, 2.5})
+      {
+        SCOPED_TRACE(std::to_string(length) + " " + std::to_string(offset) + " " + std::to_string(angle));
+        const std::string origin = "<origin xyz='" + std::to_string(offset * std::cos(angle)) + " " +
+                                   std::to_string(offset * std::sin(angle)) + " 0'/>";
+        const auto scene = sceneWith(element("<sphere radius='0.02'/>", origin), Cylinder{0.1, length}, 0.0);
+        const BodyDistance found = onlyPair(scene, 0.0);
+        EXPECT_LE(found.depth_at_least, 0.12 - offset + 1e-6);
+        EXPECT_GE(found.depth_at_least, 0.119 - offset) << "not much less";
+        EXPECT_GE(-found.distance, found.depth_at_least);
+      }
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
