@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include "collision/contacts/padded_scene.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/state_inspector.h"
 #include "support/distance_truth.h"
-#include "support/obstacles.h"
 #include "support/seed.h"
 #include "support/test_scenes.h"
 
@@ -19,21 +19,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// A scene with padded links, padded objects, a half-space and meshes.
-PlanningScene paddedScene(const TestScene& test)
-{
-  PlanningScene made = *test.scene;
-  for (const WorldObject& object : generateObstacles({12, Eigen::Vector3d(0, 0, 0.5), 0.9, 1.5, 0.3}, 5))
-  {
-    made.objects.push_back(object);
-    made.objects.back().id = "more " + std::to_string(made.objects.size());
-    made.objects.back().padding = 0.004;
-  }
-  made.objects.push_back({"floor", Eigen::Isometry3d::Identity(), {{HalfSpace{Eigen::Vector3d::UnitZ(), -0.2}}}});
-  made.link_padding.assign(made.robot->links().size(), 0.006);
-  return made;
-}
-
 class Distances : public testing::TestWithParam<const char*>
 {
  protected:
