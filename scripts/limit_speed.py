@@ -2,11 +2,10 @@
 """Slows a velocity command down where the robot comes near to something: an example, not a safety device.
 
 Topics: joint_states in; command in and limited_command out (sensor_msgs/JointState with names and velocities, rad/s or
-m/s). Each command is scaled by the distances of the next ~horizon seconds (0.5). A pair of bodies that comes nearer
-counts by its least distance: ~slow (0.1 m) and more leave the command as it is, ~stop (0.02 m) and less stop it.
-~group: the group that moves. ~node: the planning_scene_node (/planning_scene). Without an answer of the node, or if
-joint values are older than 0.25 s, the velocities are 0. The controller must stop by itself where no command comes any
-more."""
+m/s). The next ~horizon seconds (0.5) limit the speed. A pair of bodies that comes nearer than ~slow (0.1 m) allows less
+than the commanded speed, and none at ~stop (0.02 m). ~group: the group that moves. ~node: the planning_scene_node
+(/planning_scene). Without an answer of the node, or if joint values are older than 0.25 s, the velocities are 0. The
+controller must stop by itself where no command comes any more."""
 import math
 
 OLDEST = 0.25  # seconds
@@ -22,14 +21,17 @@ def future_states(now, velocities, horizon):
 
 
 def scale_of(states, slow, stop):
-    """The factor of a command. `states`: for each future state, the first one now, the distances (m) of the pairs of
-    bodies that are nearer than `slow`."""
-    scale = 1.0
-    for pair in set().union(*states):
-        least = min(state.get(pair, slow) for state in states)
-        if least < states[0].get(pair, slow) - NOISE:
-            scale = min(scale, max(0.0, (least - stop) / (slow - stop)))
-    return scale
+    """The factor of a command. `states`: for each future state at full speed, the first one now, the distances (m) of
+    the pairs of bodies that are nearer than `slow`. Within the horizon, a robot at this factor reaches only states that
+    allow this factor."""
+    allowed = 1.0  # by the states so far
+    for i, state in enumerate(states):
+        for pair, distance in state.items():
+            if distance < states[0].get(pair, slow) - NOISE:
+                allowed = min(allowed, max(0.0, (distance - stop) / (slow - stop)))
+        if allowed * (len(states) - 1) < i:
+            return max(allowed, (i - 1) / (len(states) - 1))
+    return allowed
 
 
 class SpeedLimiter:

@@ -25,7 +25,13 @@ class LimitSpeed(unittest.TestCase):
         self.assertEqual(1.0, self.scale({}, {}))
         self.assertAlmostEqual(0.5, self.scale({}, {"pair": 0.06}))
         self.assertEqual(0.0, self.scale({"pair": 0.05}, {"pair": 0.02}))
-        self.assertEqual(0.0, self.scale({"pair": 0.05}, {"pair": -0.1}, {"pair": 0.05}))
+        self.assertEqual(0.0, self.scale({"pair": 0.05}, {"pair": -0.1}, {"pair": 0.05}, {"pair": 0.05}))
+
+    def test_the_speed_is_such_that_the_states_within_the_horizon_allow_it(self):
+        # At half of the speed, the robot reaches the second of four states, which allows 0.75.
+        self.assertAlmostEqual(0.5, self.scale({}, {}, {"pair": 0.08}, {"pair": 0.04}, {"pair": 0.0}))
+        # At a quarter of it, the first one, which allows 0.5. The second one allows nothing.
+        self.assertAlmostEqual(0.25, self.scale({}, {"pair": 0.06}, {"pair": 0.02}, {"pair": -0.1}, {"pair": -0.2}))
 
     def test_a_pair_that_keeps_its_distance_or_leaves_does_not(self):
         self.assertEqual(1.0, self.scale({"base": 0.01}, {"base": 0.01}))
