@@ -28,8 +28,8 @@ struct ConvexSeparation
 
 /// The direction for which the depth is least: the penetration depth of sets that overlap, minus the distance of
 /// others. The depth is exact for the normal, up to rounding. It exceeds the least depth of all directions by up to
-/// 1e-9 times the sizes of the sets, and by more only if many directions are nearly as good: where sets that are curved,
-/// or have many faces, overlap almost concentrically.
+/// 1e-9 times the sizes of the sets, and by more only if many directions are nearly as good: where sets that are
+/// curved, or have many faces, overlap almost concentrically.
 ConvexSeparation separationOf(const Convex& a, const Convex& b);
 
 /// A point of both sets, up to 1e-11 times their sizes. If the sets are apart, the middle between their nearest points.
