@@ -56,7 +56,7 @@ Vector3d deepestPoint(const ContactPair& pair, CpuShapePair::Scratch& scratch)
   const ContactShape& a = pair.a;
   const ContactShape& b = pair.b;
   const ConvexSeparation hulls = hullSeparation(a, b);
-  const Vector3d middle = 0.5 * (hulls.on_a + hulls.on_b);
+  Vector3d middle = 0.5 * (hulls.on_a + hulls.on_b);
   if (a.is_convex && b.is_convex && hulls.depth <= 0.0)
     return middle;
   for (const Vector3d& point : {middle, hulls.on_b, hulls.on_a})

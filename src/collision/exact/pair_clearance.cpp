@@ -22,32 +22,42 @@ using Eigen::Vector3d;
 // Distance bounds are widened by this margin, which exceeds their rounding error and kSlack.
 constexpr double kMargin = 1e-9;  // metres
 
-/// The clearance found so far. For two parts, within(v) of update() tells whether they are within the distance v, and
-/// distance() is an estimate of their distance.
+/// The clearance found so far, and the parts that have it. For two parts, within(v) of update() tells whether they are
+/// within the distance v, and distance() is an estimate of their distance.
 class Best
 {
  public:
-  Best(double required, double most) : required_(required), clearance_(most) {}
+  Best(double required, double most) : required_(required), most_(most), clearance_(most) {}
 
-  PairClearance found() const { return {clearance_, parts_}; }
-  /// Nodes that are farther from each other than this cannot improve the clearance.
-  double reach() const { return required_ + clearance_ + kMargin; }
+  PairClearance found() const { return {clearance_, clearance_ < most_ ? parts_ : std::nullopt}; }
+  /// Nodes that are farther from each other than this cannot improve the clearance or the parts.
+  double reach() const { return required_ + clearance_ + kResolution + kMargin; }
 
-  /// Returns whether the parts are nearer than the best so far.
+  /// Returns whether the clearance became less. Bisection leaves it up to kResolution below the truth, so parts that
+  /// are nearer than the known ones may be above it.
   template <class Within, class Distance>
   bool update(const ShapeParts& parts, const Within& within, const Distance& distance)
   {
     const auto meets = [&](double x) { return within(required_ + x); };
+    if (!meets(clearance_ + kResolution))
+      return false;
+    const double found = distance();
+    if (!parts_ || found < distance_)
+    {
+      parts_ = parts;
+      distance_ = found;
+    }
     if (!meets(clearance_))
       return false;
-    clearance_ = bisectLeast(0.0, clearance_, meets, distance() - required_);
-    parts_ = parts;
+    clearance_ = bisectLeast(0.0, clearance_, meets, found - required_);
     return true;
   }
 
  private:
   double required_;
+  double most_;
   double clearance_;
+  double distance_ = 0.0;  // of the parts
   std::optional<ShapeParts> parts_;
 };
 

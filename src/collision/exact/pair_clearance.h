@@ -11,6 +11,9 @@
 
 namespace gpu_planning_scene::core
 {
+/// How far bisectLeast may end below the least x.
+constexpr double kResolution = 1e-6;  // metres
+
 /// Bisection for the least x in [low, high] with holds(x). `high` must be finite. `holds` must be true for `high` and
 /// for all values above the least one. The result is at most 1e-6 m below the least x, and never above it.
 ///
@@ -19,7 +22,6 @@ template <class Predicate>
 double bisectLeast(double low, double high, const Predicate& holds,
                    double estimate = std::numeric_limits<double>::quiet_NaN())
 {
-  constexpr double kResolution = 1e-6;  // metres
   constexpr double kEstimateError = 0.4e-6;
   for (const double tried : {estimate + kEstimateError, estimate - kEstimateError})
     if (tried > low && tried < high)
@@ -43,7 +45,7 @@ struct ShapeParts
   std::uint32_t of_b;
 };
 
-/// The clearance of two shapes, in metres, and parts that have it up to 1e-6 m.
+/// The clearance of two shapes, in metres, and the parts that are nearest by distances in double arithmetic.
 struct PairClearance
 {
   double clearance;
