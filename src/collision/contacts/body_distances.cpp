@@ -93,7 +93,7 @@ NearestPairs nearestPairsOf(const PlanningScene& scene, const InspectedGroup& gr
   { return body >= first && body < first + count; };
   const NearestOfState nearest = group.clearance().find(link_poses.data());
   Collisions collisions(group, link_poses);
-  const auto pairOf = [&](const NearBodies& near, bool of_world) -> NearestPair
+  const auto pair_of = [&](const NearBodies& near, bool of_world) -> NearestPair
   {
     if (near.bodies == kNoPair)
       return {};
@@ -110,7 +110,7 @@ NearestPairs nearestPairsOf(const PlanningScene& scene, const InspectedGroup& gr
       return {near.bodies, near.clearance, near.points};
     return {{near.bodies[1], near.bodies[0]}, near.clearance, {near.points[1], near.points[0]}};
   };
-  return {pairOf(nearest.world, true), pairOf(nearest.self, false)};
+  return {pair_of(nearest.world, true), pair_of(nearest.self, false)};
 }
 
 StateDistances distancesOf(const RobotModel& robot, const InspectedGroup& group, const DistanceQuery& query,
@@ -122,14 +122,14 @@ StateDistances distancesOf(const RobotModel& robot, const InspectedGroup& group,
   for (const NearBodies& near : query.nearest_of_each_body ? search.nearestOfBodies(query.range, link_poses.data())
                                                            : search.pairsWithin(query.range, link_poses.data()))
   {
-    const auto isWanted = [&](const BodyPair& pair)
+    const auto is_wanted = [&](const BodyPair& pair)
     {
       const std::int32_t first = near.bodies[0];
       return query.nearest_of_each_body
                  ? pair[0] == first || pair[1] == first
                  : pair == BodyPair{std::min(first, near.bodies[1]), std::max(first, near.bodies[1])};
     };
-    const CollidingPair* colliding = query.signed_distance && near.collides ? collisions.deepest(isWanted) : nullptr;
+    const CollidingPair* colliding = query.signed_distance && near.collides ? collisions.deepest(is_wanted) : nullptr;
     found.pairs.push_back(colliding ? distanceFrom(near.bodies[0], *colliding, group.leastDepth(*colliding, link_poses))
                                     : distanceOf(near));
   }

@@ -549,12 +549,12 @@ TEST_F(Service, DistancesHavePointsNormalsAndGradientsOfTheRequestsVariables)
   const CheckStates::Response response = answer(asked);
   const std::vector<std::string> names = {"slide", "turn"};
   EXPECT_EQ(names, response.gradient_names);
-  const auto ofState = [&](std::uint32_t state)
+  const auto of_state = [&](std::uint32_t state)
   {
     return *std::find_if(response.distances.begin(), response.distances.end(),
                          [&](const BodyDistanceMessage& each) { return each.state == state && each.body_2 == "wall"; });
   };
-  const BodyDistanceMessage apart = ofState(0);
+  const BodyDistanceMessage apart = of_state(0);
   EXPECT_EQ("cart", apart.body_1);
   EXPECT_EQ(ContactInformation::WORLD_OBJECT, apart.body_type_2);
   EXPECT_NEAR(0.3, apart.distance, 2e-6) << "the cart reaches to 0.6 m, the wall begins at 0.9 m";
@@ -563,7 +563,7 @@ TEST_F(Service, DistancesHavePointsNormalsAndGradientsOfTheRequestsVariables)
   EXPECT_NEAR(1.0, apart.normal.x, 1e-9);
   ASSERT_EQ(2u, apart.gradient.size());
   EXPECT_NEAR(-1.0, apart.gradient[0], 1e-9) << "the slide moves the cart to the wall";
-  const BodyDistanceMessage deep = ofState(1);
+  const BodyDistanceMessage deep = of_state(1);
   EXPECT_NEAR(-0.1, deep.distance, 1e-6) << "the cart reaches to 1.0 m";
   EXPECT_TRUE(deep.collides);
   EXPECT_NEAR(0.1, deep.depth_at_least, 1e-6) << "two boxes: the depth is exact";
