@@ -56,7 +56,8 @@ if(GPU_PLANNING_SCENE_ROS)
     install(FILES moveit_plugins.xml moveit_planner_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
   endif()
   install(TARGETS add_object planning_scene_node RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-  catkin_install_python(PROGRAMS scripts/allow_collision.py scripts/demo_client.py scripts/joint_sliders.py scripts/save_scene.py scripts/show_scene.py
+  catkin_install_python(PROGRAMS scripts/allow_collision.py scripts/demo_client.py scripts/joint_sliders.py scripts/limit_speed.py
+    scripts/save_scene.py scripts/show_scene.py
     DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
   export(EXPORT gpu_planning_scene-targets NAMESPACE gpu_planning_scene::
     FILE ${CATKIN_DEVEL_PREFIX}/${export_folder}/gpu_planning_scene-targets.cmake)

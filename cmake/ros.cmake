@@ -21,6 +21,7 @@ add_message_files(FILES
   CollisionObject.msg
   Constraints.msg
   ContactInformation.msg
+  BodyDistance.msg
   BodySolid.msg
   JointConstraint.msg
   LinkPadding.msg

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -15,6 +17,8 @@ namespace gpu_planning_scene::python
 {
 namespace
 {
+using core::BodyDistance;
+using core::BodyDistances;
 using core::Clearance;
 using core::Contact;
 using core::PlanningScene;
@@ -37,14 +41,11 @@ std::vector<Contact> contacts(const StateInspector& inspector, const py::object&
                      { return inspector.contacts(row.data(), group.value, max_contacts.value, max_per_pair.value); });
 }
 
-/// Computes in parts that grow to a quarter of a second, between which Ctrl-C can end the call.
-Clearances clearances(const StateInspector& inspector, const py::object& states, const Arg<std::string>& group)
+/// Computes `work(states, count)` in parts that grow to a quarter of a second, between which Ctrl-C can end the call.
+template <class Work>
+void inParts(const Rows& rows, std::size_t width, const Work& work)
 {
-  const core::RobotModel& robot = *inspector.scene()->robot;
-  const Rows rows = rowsFrom(states, robot, "states", &inspector.scene()->current_state);
   const double* data = rows.data();
-  const std::size_t width = robot.variables().size();
-  Clearances result;
   Interrupt interrupt;
   withoutLock(
       [&]
@@ -54,14 +55,56 @@ Clearances clearances(const StateInspector& inspector, const py::object& states,
         {
           const std::size_t count = std::min(part, rows.count - done);
           const Clock::time_point begin = Clock::now();
-          const auto next = inspector.clearances(data + done * width, count, group.value);
+          work(data + done * width, count);
           if (Clock::now() - begin < std::chrono::milliseconds(125))
             part *= 2;
-          result.all.insert(result.all.end(), next.begin(), next.end());
           done += count;
         }
       });
   interrupt.rethrow();
+}
+
+Clearances clearances(const StateInspector& inspector, const py::object& states, const Arg<std::string>& group)
+{
+  const core::RobotModel& robot = *inspector.scene()->robot;
+  Clearances result;
+  inParts(rowsFrom(states, robot, "states", &inspector.scene()->current_state), robot.variables().size(),
+          [&](const double* part, std::size_t count)
+          {
+            const auto next = inspector.clearances(part, count, group.value);
+            result.all.insert(result.all.end(), next.begin(), next.end());
+          });
+  return result;
+}
+
+/// The distances of one call, and the number of columns of their gradients.
+struct Distances
+{
+  BodyDistances all;
+  std::vector<std::int64_t> states;  // of each pair
+  std::size_t width = 0;
+};
+
+Distances distances(const StateInspector& inspector, const py::object& states, const Arg<std::string>& group,
+                    Arg<double> range, Arg<bool> nearest_of_each_body, Arg<bool> gradients, Arg<bool> signed_distance)
+{
+  const core::RobotModel& robot = *inspector.scene()->robot;
+  const core::DistanceQuery query = {range.value, nearest_of_each_body.value, gradients.value, signed_distance.value};
+  Distances result;
+  result.width = gradients.value ? robot.variables().size() : 0;
+  std::int64_t state = 0;
+  const auto append = [&](const double* part, std::size_t count)
+  {
+    const BodyDistances next = inspector.distances(part, count, group.value, query);
+    BodyDistances& all = result.all;
+    all.pairs.insert(all.pairs.end(), next.pairs.begin(), next.pairs.end());
+    all.gradients.insert(all.gradients.end(), next.gradients.begin(), next.gradients.end());
+    for (std::size_t i = 0; i < count; ++i, ++state)
+      result.states.insert(result.states.end(), next.first[i + 1] - next.first[i], state);
+  };
+  const Rows rows = rowsFrom(states, robot, "states", &inspector.scene()->current_state);
+  withoutLock([&] { append(rows.data(), 0); });  // finds a fault of the query also without states
+  inParts(rows, robot.variables().size(), append);
   return result;
 }
 
@@ -77,6 +120,78 @@ py::array membersOf(const py::object& self, Member Clearance::*member, bool is_p
     strides.push_back(sizeof(T));
   }
   return viewOf(all.empty() ? nullptr : reinterpret_cast<const T*>(&(all.front().*member)), shape, strides, self);
+}
+
+/// A view of a member of all pairs; `inner`: the shape of the member, which contains only T.
+template <typename T, typename Member>
+py::array ofPairs(const py::object& self, Member BodyDistance::*member, const std::vector<py::ssize_t>& inner)
+{
+  const std::vector<BodyDistance>& all = self.cast<const Distances&>().all.pairs;
+  std::vector<py::ssize_t> shape = {static_cast<py::ssize_t>(all.size())};
+  std::vector<py::ssize_t> strides = {sizeof(BodyDistance)};
+  py::ssize_t size = sizeof(Member);
+  for (const py::ssize_t length : inner)
+  {
+    size /= length;
+    shape.push_back(length);
+    strides.push_back(size);
+  }
+  return viewOf(all.empty() ? nullptr : reinterpret_cast<const T*>(&(all.front().*member)), shape, strides, self);
+}
+
+void addDistances(py::module_& module)
+{
+  py::class_<Distances>(module, "BodyDistances",
+                        "The distances of pairs of bodies in states, in metres and in the planning frame. The pairs of "
+                        "a state follow each other. The arrays show its memory.")
+      .def_property_readonly(
+          "state",
+          [](const py::object& self)
+          {
+            const auto& states = self.cast<const Distances&>().states;
+            return viewOf(states.data(), {static_cast<py::ssize_t>(states.size())}, {sizeof(std::int64_t)}, self);
+          },
+          "The number of the state of each pair, ascending. Shape (n,), int64.")
+      .def_property_readonly(
+          "bodies", [](const py::object& self) { return ofPairs<std::int32_t>(self, &BodyDistance::bodies, {2}); },
+          "Body indices; the first is a link or an attached object. Shape (n, 2), int32.")
+      .def_property_readonly(
+          "collides", [](const py::object& self) { return ofPairs<bool>(self, &BodyDistance::collides, {}); },
+          "Whether the bodies collide. Shape (n,), bool.")
+      .def_property_readonly(
+          "distance", [](const py::object& self) { return ofPairs<double>(self, &BodyDistance::distance, {}); },
+          "Metres beyond the required distance, at most 1e-6 m below the true value and never above it; a pair that is "
+          "free may have 0. In collision: minus the depth of the deepest contact. Shape (n,).")
+      .def_property_readonly(
+          "depth_at_least",
+          [](const py::object& self) { return ofPairs<double>(self, &BodyDistance::depth_at_least, {}); },
+          "Metres. In collision: no shorter translation separates the bodies. 0: no such length is known. Shape (n,).")
+      .def_property_readonly(
+          "points",
+          [](const py::object& self) {
+            return ofPairs<double>(self, &BodyDistance::points, {2, 3});
+          },
+          "The nearest points of the two surfaces without padding; in collision, both are the point of the deepest "
+          "contact. Shape (n, 2, 3).")
+      .def_property_readonly(
+          "normal", [](const py::object& self) { return ofPairs<double>(self, &BodyDistance::normal, {3}); },
+          "Unit length, from the first body to the second. NaN if the surfaces touch without a collision, and in "
+          "collision without signed_distance. Shape (n, 3).")
+      .def_property_readonly(
+          "gradient",
+          [](const py::object& self)
+          {
+            const auto& result = self.cast<const Distances&>();
+            const auto width = static_cast<py::ssize_t>(result.width);
+            constexpr auto size = static_cast<py::ssize_t>(sizeof(double));
+            return viewOf(result.all.gradients.data(),
+                          {static_cast<py::ssize_t>(width == 0 ? 0 : result.all.pairs.size()), width},
+                          {width * size, size}, self);
+          },
+          "The derivatives of the distance by the variables, in metres per radian or metre. A row without a normal is "
+          "NaN. Shape (n, variables), or (0, 0) without gradients.")
+      .def(
+          "__len__", [](const Distances& result) { return result.all.pairs.size(); });
 }
 
 void addResults(py::module_& module)
@@ -117,9 +232,11 @@ void addResults(py::module_& module)
 void addStateInspector(py::module_& module)
 {
   addResults(module);
+  addDistances(module);
   py::class_<StateInspector, std::shared_ptr<StateInspector>>(
       module, "StateInspector",
-      "Computes contacts and clearances of states. A clearance takes about a hundred times as long as a check.\n\n"
+      "Computes contacts, clearances and distances of states. A clearance takes about a hundred times as long as a "
+      "check.\n\n"
       "scene: the inspector takes a copy. Thread-safe. Raises Error if the scene is not valid.\n\n"
       "    inspector = gps.StateInspector(scene)\n    print(inspector.clearances(states).world)")
       .def(py::init(
@@ -140,6 +257,18 @@ void addStateInspector(py::module_& module)
            "    for contact in inspector.contacts(state):\n        print(contact.point, contact.depth)")
       .def("clearances", &clearances, py::arg("states"), py::arg("group") = "",
            "The clearances of states, computed on all cores.\n\nstates: as in StateChecker.check. group: "
-           "as in StateChecker.check. Returns Clearances. Raises Error as contacts does. Ctrl-C ends a long call.");
+           "as in StateChecker.check. Returns Clearances. Raises Error as contacts does. Ctrl-C ends a long call.")
+      .def(
+          "distances", &distances, py::arg("states"), py::arg("group") = "",
+          py::arg("range") = std::numeric_limits<double>::infinity(), py::arg("nearest_of_each_body") = false,
+          py::arg("gradients") = true, py::arg("signed_distance") = true,
+          "The distances of the bodies of states, with nearest points, normals and gradients, computed on all "
+          "cores.\n\nstates: as in StateChecker.check; one row is one state. group: as there. range: metres, above 0; "
+          "pairs that are not nearer are left out. nearest_of_each_body: only the nearest pair of each link and "
+          "attached object, which takes much "
+          "less time. signed_distance: False: pairs in collision have the distance 0, and neither points nor a normal, "
+          "which takes less time. Returns BodyDistances. Raises Error as contacts does, and if the range "
+          "is not above 0. Ctrl-C ends a long call.\n\n"
+          "    near = inspector.distances(states, range=0.1)\n    print(near.distance, near.gradient)");
 }
 }  // namespace gpu_planning_scene::python

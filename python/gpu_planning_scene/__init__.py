@@ -11,6 +11,7 @@ __all__ = [
     "BatchResult",
     "Box",
     "CartesianPath",
+    "BodyDistances",
     "Clearances",
     "Cone",
     "Contact",

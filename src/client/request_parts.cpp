@@ -71,8 +71,18 @@ std::vector<CheckStates::Request> partsOf(const CheckStates::Request& request, c
   return parts;
 }
 
-CheckStates::Response joined(std::vector<CheckStates::Response> answers)
+CheckStates::Response joined(const CheckStates::Request& request, std::vector<CheckStates::Response> answers)
 {
+  // The variables that partsOf added come last.
+  const std::size_t named = request.joint_names.size();
+  for (CheckStates::Response& answer : answers)
+  {
+    if (named == 0 || answer.gradient_names.size() <= named)
+      continue;
+    answer.gradient_names.resize(named);
+    for (auto& distance : answer.distances)
+      distance.gradient.resize(named);
+  }
   CheckStates::Response whole = std::move(answers.front());
   std::set<std::string> messages = {whole.message};
   for (std::size_t i = 1; i < answers.size(); ++i)
@@ -81,6 +91,8 @@ CheckStates::Response joined(std::vector<CheckStates::Response> answers)
     const std::size_t first = whole.valid.size();
     for (auto& contact : part.contacts)
       contact.state += static_cast<std::uint32_t>(first);
+    for (auto& distance : part.distances)
+      distance.state += static_cast<std::uint32_t>(first);
     append(whole.valid, part.valid);
     append(whole.body_1, part.body_1);
     append(whole.body_2, part.body_2);
@@ -89,6 +101,7 @@ CheckStates::Response joined(std::vector<CheckStates::Response> answers)
     append(whole.clearance_self, part.clearance_self);
     append(whole.nearest_world, part.nearest_world);
     append(whole.nearest_self, part.nearest_self);
+    append(whole.distances, part.distances);
     whole.seconds += part.seconds;
     // Warnings that name a state count the states of their part.
     if (!part.message.empty() && messages.insert(part.message).second)

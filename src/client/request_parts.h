@@ -30,5 +30,5 @@ std::vector<CheckStates::Request> partsOf(const CheckStates::Request& request, c
                                           std::size_t variables, std::size_t part_states);
 
 /// The answer to the whole request. `answers`: to the parts, in their order.
-CheckStates::Response joined(std::vector<CheckStates::Response> answers);
+CheckStates::Response joined(const CheckStates::Request& request, std::vector<CheckStates::Response> answers);
 }  // namespace gpu_planning_scene::core

@@ -155,7 +155,7 @@ class ShardedChecker::Call
       {
         Failures failures;
         if (serveAll(failures))
-          return joined(work_->takeAnswers());
+          return joined(request_, work_->takeAnswers());
         failure_ = failures.reported();
         if (failures.areFinal() && (request_.scene_revision != 0 || !failures.lackScene()))
           return responseOf(failure_);

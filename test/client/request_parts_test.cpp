@@ -78,14 +78,25 @@ TEST(RequestParts, AnswersAreJoinedInTheOrderOfTheStates)
     answer.clearance_world = {static_cast<double>(i), 0.0};
     answer.contacts.resize(1);
     answer.contacts[0].state = 1;
+    answer.gradient_names = {"a", "b", "added"};
+    answer.distances.resize(1);
+    answer.distances[0].state = 1;
+    answer.distances[0].gradient = {1.0, 2.0, 3.0};
   }
-  const CheckStates::Response whole = joined(answers);
+  CheckStates::Request request;
+  request.joint_names = {"a", "b"};
+  const CheckStates::Response whole = joined(request, answers);
   EXPECT_EQ((std::vector<std::uint8_t>{1, 0, 1, 0, 1, 0}), whole.valid);
   EXPECT_EQ((std::vector<std::string>{"", "a0", "", "a1", "", "a2"}), whole.body_1);
   EXPECT_EQ((std::vector<double>{0, 0, 1, 0, 2, 0}), whole.clearance_world);
   ASSERT_EQ(3u, whole.contacts.size());
   for (std::size_t i = 0; i < 3; ++i)
+  {
     EXPECT_EQ(2 * i + 1, whole.contacts[i].state);
+    EXPECT_EQ(2 * i + 1, whole.distances.at(i).state);
+    EXPECT_EQ((std::vector<double>{1.0, 2.0}), whole.distances[i].gradient) << "of the request's joints alone";
+  }
+  EXPECT_EQ(request.joint_names, whole.gradient_names);
   EXPECT_EQ("no tf; from state 2 on: state 1: far", whole.message);
   EXPECT_EQ(3.0, whole.seconds);
   EXPECT_EQ(7u, whole.scene_revision);

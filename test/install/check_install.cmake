@@ -99,7 +99,7 @@ set(share share/gpu_planning_scene)
 foreach(file setup.bash ${share}/launch/planning_scene.launch ${share}/config/demo/kr5_scene.yaml ${share}/package.xml
         lib/gpu_planning_scene/planning_scene_node lib/gpu_planning_scene/demo_client.py
         lib/gpu_planning_scene/show_scene.py lib/gpu_planning_scene/allow_collision.py lib/gpu_planning_scene/save_scene.py
-        lib/gpu_planning_scene/joint_sliders.py ${share}/config/scene.rviz
+        lib/gpu_planning_scene/joint_sliders.py lib/gpu_planning_scene/limit_speed.py ${share}/config/scene.rviz
         ${share}/launch/live_demo.launch ${share}/launch/show_scene.launch ${share}/config/demo/arm.urdf
         ${share}/planner_plugins.xml lib/libgpu_planning_scene_planners.so)
   if(NOT EXISTS ${prefix}/${file})

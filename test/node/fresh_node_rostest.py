@@ -9,11 +9,14 @@ import tempfile
 import time
 import unittest
 
+import numpy as np
 import rospy
 import rosservice
 import rostest
 
 from gpu_planning_scene.srv import CheckStates
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Header
 
 from documents_rostest import ROOT, examples
 
@@ -102,6 +105,60 @@ class FreshNode(unittest.TestCase):
         answer = self.allow_collision("palm", "workpice")
         self.assertEqual(1, answer.returncode)
         self.assertRegex(answer.stderr, "'workpice' is neither a link nor an object of the scene; there are: .*workpiece")
+
+    def test_the_limited_speed_stops_the_arm_before_the_workpiece_and_lets_it_leave(self):
+        joints = ["shoulder_yaw", "shoulder_pitch", "elbow_pitch", "elbow_roll", "wrist_pitch", "wrist_roll"]
+        in_workpiece = np.array([-0.3, 0.3, 0.3, 0.0, 0.0, 0.0])
+        state = np.array([-1.2, 0.3, 0.3, 0.0, 0.0, 0.0])  # the yaw alone moves, so no links come nearer to each other
+        check = rospy.ServiceProxy("/planning_scene/check_states", CheckStates)
+
+        def distance(row):
+            answer = check(joint_names=joints, positions=row.tolist(), distances=2, distance_range=1.0)
+            self.assertTrue(answer.success, answer.message)
+            return min(found.distance for found in answer.distances if "workpiece" in (found.body_1, found.body_2))
+
+        states = rospy.Publisher("joint_states", JointState, queue_size=1)
+        commands = rospy.Publisher("command", JointState, queue_size=1)
+        limited = []
+        rospy.Subscriber("limited_command", JointState, limited.append)
+        program = subprocess.Popen([sys.executable, os.path.join(ROOT, "scripts", "limit_speed.py")])
+        try:
+            while commands.get_num_connections() == 0 or states.get_num_connections() < 2:
+                rospy.sleep(0.05)
+
+            def drive(state, velocity, count):
+                """The states and the shares of the velocity in `count` steps of 0.05 s."""
+                shares = []
+                for _ in range(count):
+                    states.publish(JointState(name=joints, position=state.tolist(),
+                                              header=Header(stamp=rospy.Time.now())))
+                    rospy.sleep(0.02)  # joint_states and command are two connections
+                    limited.clear()
+                    commands.publish(JointState(name=joints, velocity=velocity.tolist()))
+                    while not limited:
+                        rospy.sleep(0.001)
+                    allowed = np.array(limited[0].velocity)
+                    shares.append(allowed @ velocity / (velocity @ velocity))
+                    state = state + 0.05 * allowed
+                    self.assertGreater(distance(state), 0.0, state)
+                return state, shares
+
+            velocity = (in_workpiece - state) / 2
+            near, shares = drive(state, velocity, 80)
+            self.assertEqual(1.0, shares[0])
+            self.assertLess(shares[-1], 0.05)
+            self.assertLess(distance(near), 0.08, "it stops near the workpiece, not far from it")
+            _, shares = drive(near, -velocity, 3)
+            self.assertEqual([1.0, 1.0, 1.0], shares)
+            rospy.sleep(0.3)
+            limited.clear()
+            commands.publish(JointState(name=joints, velocity=velocity.tolist()))
+            while not limited:
+                rospy.sleep(0.001)
+            self.assertEqual([0.0] * 6, list(limited[0].velocity), "the joint values are too old")
+        finally:
+            program.send_signal(signal.SIGINT)
+            program.wait(PATIENCE)
 
 
 if __name__ == "__main__":

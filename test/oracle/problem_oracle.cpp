@@ -116,20 +116,21 @@ struct ProblemOracle::Impl
     const PreparedShape* shape;
     Motion pose;
     double padding;
+    std::int32_t body;
   };
 
   Placed robotInstance(const std::vector<Motion>& link_poses, std::size_t i) const
   {
     const ShapeInstance& instance = problem->robot[i];
-    return {shapes[instance.tree].get(), link_poses[instance.link] * robot[i], instance.padding};
+    return {shapes[instance.tree].get(), link_poses[instance.link] * robot[i], instance.padding, instance.body};
   }
 
   Placed worldInstance(std::size_t i) const
   {
     if (i < problem->world.size())
-      return {shapes[problem->world[i].tree].get(), world[i], problem->world[i].padding};
+      return {shapes[problem->world[i].tree].get(), world[i], problem->world[i].padding, problem->world[i].body};
     i -= problem->world.size();
-    return {half_spaces[i].get(), {}, problem->half_spaces[i].padding};
+    return {half_spaces[i].get(), {}, problem->half_spaces[i].padding, problem->half_spaces[i].body};
   }
 
   /// Calls visit(a, b, required distance) for the checked pairs until it returns true.
@@ -198,6 +199,36 @@ double ProblemOracle::clearance(const std::vector<Motion>& link_poses, double li
                     {
                       const double found = distance(*a.shape, a.pose, *b.shape, b.pose, limit + required);
                       limit = std::min(limit, found - required);
+                      return false;
+                    });
+  return limit;
+}
+
+std::map<BodyPair, double> ProblemOracle::clearances(const std::vector<Motion>& link_poses, double limit) const
+{
+  std::map<BodyPair, double> found;
+  impl_->visitPairs(link_poses,
+                    [&](const Impl::Placed& a, const Impl::Placed& b, double required)
+                    {
+                      const BodyPair bodies = {std::min(a.body, b.body), std::max(a.body, b.body)};
+                      const auto known = found.find(bodies);
+                      const double most = known == found.end() ? limit : known->second;
+                      const double clearance = distance(*a.shape, a.pose, *b.shape, b.pose, most + required) - required;
+                      if (clearance < most)
+                        found[bodies] = clearance;
+                      return false;
+                    });
+  return found;
+}
+
+double ProblemOracle::clearanceOf(const BodyPair& bodies, const std::vector<Motion>& link_poses, double limit) const
+{
+  impl_->visitPairs(link_poses,
+                    [&](const Impl::Placed& a, const Impl::Placed& b, double required)
+                    {
+                      if (std::min(a.body, b.body) == bodies[0] && std::max(a.body, b.body) == bodies[1])
+                        limit =
+                            std::min(limit, distance(*a.shape, a.pose, *b.shape, b.pose, limit + required) - required);
                       return false;
                     });
   return limit;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -27,6 +28,13 @@ class ProblemOracle
   /// The smallest value of distance minus required distance over all checked pairs. If it is at least `limit`, the
   /// result is some value of at least `limit`.
   double clearance(const std::vector<Motion>& link_poses, double limit) const;
+
+  /// The same for each pair of bodies with a checked pair; those that are not below `limit` are left out. The bodies
+  /// ascend.
+  std::map<BodyPair, double> clearances(const std::vector<Motion>& link_poses, double limit) const;
+
+  /// The same for one pair of bodies, which must ascend.
+  double clearanceOf(const BodyPair& bodies, const std::vector<Motion>& link_poses, double limit) const;
 
   /// The verdict on a pair of instances, whether checked or not. `first` is an index into `robot`; `second` is an index
   /// into the concatenation of `robot`, `world` and `half_spaces`.

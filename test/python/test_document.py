@@ -1,5 +1,6 @@
-"""test_document.py [--pictures]: runs the programs of docs/python.md and docs/watching.md and compares their output
-with the comments `# prints:`. With --pictures, it writes the picture of docs/python.md into docs/pictures.
+"""test_document.py [--pictures]: runs the programs of docs/python.md, docs/watching.md and docs/distances.md and
+compares their output with the comments `# prints:`. With --pictures, it writes the picture of docs/python.md into
+docs/pictures.
 test_bulk_dask.py runs the program of docs/bulk.md."""
 import os
 import pathlib
@@ -13,6 +14,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 DOCUMENT = ROOT / "docs" / "python.md"
 WATCHING = ROOT / "docs" / "watching.md"
+DISTANCES = ROOT / "docs" / "distances.md"
 PICTURE = ROOT / "docs" / "pictures" / "python_arm.png"
 PICTURES = "--pictures" in sys.argv
 
@@ -28,9 +30,10 @@ class Document(unittest.TestCase):
     def test_each_program_prints_what_its_comments_say(self):
         self.assertGreaterEqual(len(programs()), 6)
         self.assertEqual(len(programs(WATCHING)), 1)
+        self.assertEqual(len(programs(DISTANCES)), 3)
         with tempfile.TemporaryDirectory() as folder:
             os.symlink(ROOT / "config", pathlib.Path(folder, "config"))
-            for program in programs() + programs(WATCHING):
+            for program in programs() + programs(WATCHING) + programs(DISTANCES):
                 answer = subprocess.run([sys.executable, "-B", "-W", "error", "-c", program], cwd=folder, text=True,
                                         capture_output=True, timeout=200, check=False,
                                         env={**os.environ, "MPLBACKEND": "agg"})

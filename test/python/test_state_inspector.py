@@ -1,4 +1,4 @@
-"""StateInspector: contacts and clearances whose values are known."""
+"""StateInspector: contacts, clearances and distances whose values are known."""
 import unittest
 
 import numpy as np
@@ -44,6 +44,50 @@ class StateInspector(Case):
         np.testing.assert_allclose([0.925, 0, 0], contact.point, atol=0.026)
         np.testing.assert_allclose([1, 0, 0], contact.normal, atol=1e-2)
         self.assertEqual([], inspector.contacts([0.0]))
+
+    def test_distances_are_those_of_the_spheres(self):
+        inspector = gps.StateInspector(post_scene())
+        positions = np.linspace(-5, 5, 41)
+        near = inspector.distances(positions[:, None])
+        signed = np.abs(positions - 1) - 0.2
+        free = signed > 1e-9
+        self.assertEqual(41, len(near))
+        np.testing.assert_array_equal(np.arange(41), near.state)
+        self.assertEqual([[1, 2]], np.unique(near.bodies, axis=0).tolist())
+        np.testing.assert_allclose(near.distance[free], signed[free], rtol=0, atol=1.1e-6)
+        np.testing.assert_array_equal(near.distance < 0, ~free)
+        np.testing.assert_array_equal(near.collides, ~free)
+        self.assertTrue(np.all(near.depth_at_least[free] == 0))
+        self.assertTrue(np.all(near.depth_at_least[~free] <= -near.distance[~free]))
+        side = np.where(positions < 1, 1.0, -1.0)  # the direction to the post
+        np.testing.assert_allclose(near.normal[free], side[free, None] * [1, 0, 0], atol=1e-9)
+        np.testing.assert_allclose(near.points[free, 0, 0], (positions + 0.1 * side)[free], atol=1e-9)
+        np.testing.assert_allclose(near.points[free, 1, 0], (1 - 0.1 * side)[free], atol=1e-9)
+        np.testing.assert_allclose(near.gradient[free, 0], -side[free], atol=1e-9)
+
+    def test_distances_beyond_the_range_are_left_out(self):
+        inspector = gps.StateInspector(post_scene())
+        positions = np.linspace(-5, 5, 41)
+        near = inspector.distances(positions[:, None], range=0.5, gradients=False)
+        np.testing.assert_array_equal(np.flatnonzero(np.abs(positions - 1) - 0.2 < 0.5), near.state)
+        self.assertEqual((0, 0), near.gradient.shape)
+        self.assertEqual(0, len(inspector.distances(np.empty((0, 1)))))
+        for wrong in (0.0, -1.0, np.nan):
+            with self.assertRaisesRegex(gps.Error, "range"):
+                inspector.distances([[0.0]], range=wrong)
+
+    def test_the_nearest_pair_of_each_body_is_among_all_pairs(self):
+        scene = kr5_scene()
+        states = scene.robot.random_states(200, seed=2)
+        inspector = gps.StateInspector(scene)
+        every = inspector.distances(states)
+        nearest = inspector.distances(states, nearest_of_each_body=True)
+        self.assertLess(len(nearest), len(every))
+        links = len(scene.robot.links)
+        for state, bodies, distance in zip(nearest.state, nearest.bodies, nearest.distance):
+            of_body = (every.state == state) & np.any(every.bodies == bodies[0], axis=1)
+            self.assertLess(bodies[0], links)
+            self.assertAlmostEqual(every.distance[of_body].min(), distance, delta=1.1e-6)
 
     def test_links_that_touch_have_no_negative_depth(self):
         shapes = ('<sphere radius="0.1"/>', '<box size="0.2 0.2 0.2"/>', '<cylinder radius="0.1" length="0.2"/>')

@@ -318,6 +318,20 @@ double FclPeer::clearance(double limit) const
   return limit;
 }
 
+std::map<BodyPair, double> FclPeer::distances() const
+{
+  std::map<BodyPair, double> found;
+  impl_->visitPairs(
+      [&](const Impl::Placed& a, const Impl::Placed& b, bool padded)
+      {
+        const double distance = impl_->distance(a, b) - (padded ? a.padding + b.padding : 0.0);
+        const auto known = found.emplace(BodyPair{std::min(a.body, b.body), std::max(a.body, b.body)}, distance).first;
+        known->second = std::min(known->second, distance);
+        return false;
+      });
+  return found;
+}
+
 bool FclPeer::oneInsideTheOther(const BodyPair& pair) const
 {
   bool found = false;

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -58,6 +59,9 @@ class FclPeer
 
   /// The smallest value of distance minus padding over all checked pairs if it is below `limit`; else `limit`.
   double clearance(double limit) const;
+
+  /// The distance of each pair of bodies, with one call of FCL for each checked pair of shapes. The bodies ascend.
+  std::map<BodyPair, double> distances() const;
 
   /// Whether a body of the pair has a vertex inside a solid of the other body. For primitives this is computed
   /// directly, for meshes by the parity of ray crossings.

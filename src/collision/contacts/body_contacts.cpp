@@ -56,7 +56,7 @@ Vector3d deepestPoint(const ContactPair& pair, CpuShapePair::Scratch& scratch)
   const ContactShape& a = pair.a;
   const ContactShape& b = pair.b;
   const ConvexSeparation hulls = hullSeparation(a, b);
-  const Vector3d middle = 0.5 * (hulls.on_a + hulls.on_b);
+  Vector3d middle = 0.5 * (hulls.on_a + hulls.on_b);
   if (a.is_convex && b.is_convex && hulls.depth <= 0.0)
     return middle;
   for (const Vector3d& point : {middle, hulls.on_b, hulls.on_a})
@@ -76,7 +76,7 @@ Vector3d deepestPoint(const ContactPair& pair, CpuShapePair::Scratch& scratch)
   // Of the points where the surfaces meet, the one that is nearest to their mean.
   std::vector<Vector3d> points;
   Vector3d sum = Vector3d::Zero();
-  for (const Crossing& part : meetingParts(pair, kMaxOfPair, scratch))
+  for (const ShapeParts& part : meetingParts(pair, kMaxOfPair, scratch))
   {
     points.push_back(middleOf(pointsOf(a, b, part)));
     sum += points.back();
@@ -94,13 +94,13 @@ Vector3d deepestPoint(const ContactPair& pair, CpuShapePair::Scratch& scratch)
 std::vector<Vector3d> crossingPoints(const ContactPair& pair, std::size_t most)
 {
   const auto is_box = [](const ContactShape& shape) { return std::holds_alternative<Box>(shape.tree->shape); };
-  std::vector<Crossing> parts;
+  std::vector<ShapeParts> parts;
   if (pair.a.tree->mesh || pair.b.tree->mesh)
     parts = crossingsOf(pair.a, pair.b, 0.0, most);
   else if (is_box(pair.a) && is_box(pair.b))
     parts = crossingsOfBoxes(pair.a, pair.b, most);
   std::vector<Vector3d> points;
-  for (const Crossing& part : parts)
+  for (const ShapeParts& part : parts)
     points.push_back(middleOf(pointsOf(pair.a, pair.b, part)));
   return points;
 }
@@ -136,6 +136,23 @@ ShapeContact contactWithHalfSpace(const ContactShape& a, const PlacedHalfSpace& 
   return {point, down, std::max(0.0, depth) + kSeparationGap};
 }
 
+double leastDepthOf(const ContactPair& pair, const Vector3d& point)
+{
+  const ConvexSeparation hulls = hullSeparation(pair.a, pair.b);
+  double depth = 0.0;
+  if (pair.a.is_convex && pair.b.is_convex)
+  {
+    constexpr double kErrorPerSize = 1e-9;  // of a mesh that counts as convex
+    const double sizes = pair.a.tree->half.norm() + pair.b.tree->half.norm();
+    depth = std::max(0.0, hulls.least_depth + pair.required - kErrorPerSize * sizes);
+  }
+  // A ball around a point of both shapes is in each of them. They overlap until one has moved by the sum of the radii.
+  for (const Vector3d& tried : {point, hulls.on_a, hulls.on_b, Vector3d(0.5 * (hulls.on_a + hulls.on_b))})
+    if (contains(pair.a, tried) && contains(pair.b, tried))
+      depth = std::max(depth, depthInside(pair.a, tried) + depthInside(pair.b, tried) + pair.required - 2.0 * kOnShape);
+  return depth;
+}
+
 std::array<Vector3d, 2> nearestPointsOf(const ContactShape& a, const ContactShape& b, double distance)
 {
   constexpr double kDistanceError = 1.1e-6;  // metres; exceeds the error of `distance`
@@ -144,19 +161,17 @@ std::array<Vector3d, 2> nearestPointsOf(const ContactShape& a, const ContactShap
     const ConvexSeparation hulls = hullSeparation(a, b);
     return {hulls.on_a, hulls.on_b};
   }
-  constexpr std::size_t kMost = 64;
+  CpuShapePair::Scratch scratch;
+  const auto parts = pairClearance(*a.tree, a.pose, *b.tree, b.pose, 0.0, distance + kDistanceError, scratch).parts;
   const Vector3d none = Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
-  std::array<Vector3d, 2> best = {none, none};
-  double least = std::numeric_limits<double>::infinity();
-  for (const Crossing& part : crossingsOf(a, b, distance + kDistanceError, kMost))
-  {
-    const std::array<Vector3d, 2> points = pointsOf(a, b, part);
-    const double length = (points[1] - points[0]).norm();
-    if (length >= least)
-      continue;
-    least = length;
-    best = points;
-  }
-  return best;
+  return parts ? nearestPointsOf(a, b, *parts) : std::array<Vector3d, 2>{none, none};
+}
+
+std::array<Vector3d, 2> nearestPointsOf(const ContactShape& a, const ContactShape& b, const ShapeParts& parts)
+{
+  if (parts.of_a != ShapeParts::kWhole || parts.of_b != ShapeParts::kWhole)
+    return pointsOf(a, b, parts);
+  const ConvexSeparation hulls = hullSeparation(a, b);
+  return {hulls.on_a, hulls.on_b};
 }
 }  // namespace gpu_planning_scene::core

@@ -8,6 +8,7 @@
 
 #include "collision/contacts/contact_shape.h"
 #include "collision/exact/cpu_shape_pair.h"
+#include "collision/exact/pair_clearance.h"
 
 namespace gpu_planning_scene::core
 {
@@ -33,7 +34,14 @@ std::vector<ShapeContact> contactsOf(const std::vector<ContactPair>& pairs, cons
 /// The contact of a shape a with a half-space b, at the deepest point of the shape.
 ShapeContact contactWithHalfSpace(const ContactShape& a, const PlacedHalfSpace& b, double required);
 
+/// No translation of at most this length separates two shapes that collide, in metres; 0: no such length is known.
+/// `point`: of both shapes, if there is one.
+double leastDepthOf(const ContactPair& pair, const Eigen::Vector3d& point);
+
 /// The nearest points of two shapes that do not collide, up to 1e-6 m in their distance. `distance`: of the shapes, as
 /// pairClearance computes it.
 std::array<Eigen::Vector3d, 2> nearestPointsOf(const ContactShape& a, const ContactShape& b, double distance);
+
+/// The nearest points of two parts of shapes that do not collide.
+std::array<Eigen::Vector3d, 2> nearestPointsOf(const ContactShape& a, const ContactShape& b, const ShapeParts& parts);
 }  // namespace gpu_planning_scene::core

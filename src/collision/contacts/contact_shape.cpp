@@ -1,6 +1,7 @@
 #include "collision/contacts/contact_shape.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "collision/exact/winding_number.h"
@@ -15,8 +16,6 @@ namespace
 {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-constexpr double kOnShape = 1e-8;  // metres
 
 Vector3d farthestVertex(const CpuTree& tree, const Vector3d& direction, std::vector<std::uint32_t>& stack)
 {
@@ -140,8 +139,18 @@ ConvexSeparation hullSeparation(const ContactShape& a, const ContactShape& b)
   found.on_a = a.pose * Vector3d(found.on_a + radius_a * found.normal);
   found.on_b = a.pose * Vector3d(found.on_b - radius_b * found.normal);
   found.depth += radius_a + radius_b;
+  found.least_depth += radius_a + radius_b;
   found.normal = (a.pose.linear() * found.normal).normalized();
   return found;
+}
+
+bool hasExactSeparation(const ContactShape& a, const ContactShape& b)
+{
+  const auto is_curved = [](const ContactShape& shape)
+  { return std::holds_alternative<Cylinder>(shape.tree->shape) || std::holds_alternative<Cone>(shape.tree->shape); };
+  constexpr double kLargest = 100.0;  // metres
+  return a.is_convex && b.is_convex && !(is_curved(a) && is_curved(b)) &&
+         a.tree->half.norm() + b.tree->half.norm() <= kLargest;
 }
 
 double reachOf(const ContactShape& shape, const Vector3d& direction)
@@ -156,5 +165,32 @@ bool contains(const ContactShape& shape, const Vector3d& point)
     return distanceToSolid(shape.tree->shape, local) <= kOnShape;
   std::vector<std::uint32_t> stack;
   return isOnSurface(*shape.tree, local, stack) || isInsideSolid(*shape.tree, local, stack);
+}
+
+double depthInside(const ContactShape& shape, const Vector3d& point)
+{
+  const CpuTree& tree = *shape.tree;
+  const Vector3d local = shape.pose.linear().transpose() * (point - shape.pose.translation());
+  if (!tree.mesh)
+    return depthInSolid(tree.shape, local);
+  double depth = std::numeric_limits<double>::infinity();
+  std::vector<std::uint32_t> stack(1, 0);
+  while (!stack.empty())
+  {
+    const CpuNode& node = tree.nodes[stack.back()];
+    stack.pop_back();
+    const Vector3d beyond = (node.box.axes.transpose() * (local - node.box.center)).cwiseAbs() - node.box.half;
+    if (beyond.cwiseMax(0.0).norm() >= depth)
+      continue;
+    if (!node.isLeaf())
+    {
+      stack.push_back(node.first);
+      stack.push_back(node.first + 1);
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+      depth = std::min(depth, (nearestPoint(tree.triangles[i], local) - local).norm());
+  }
+  return depth > kOnShape && isInsideSolid(tree, local, stack) ? depth - kOnShape : 0.0;
 }
 }  // namespace gpu_planning_scene::core

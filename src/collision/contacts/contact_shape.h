@@ -68,9 +68,19 @@ double sphereRadius(const CpuTree& tree);
 /// The separation of the hulls of two shapes, in the frame of the poses. The points lie on the surfaces of the hulls.
 ConvexSeparation hullSeparation(const ContactShape& a, const ContactShape& b);
 
+/// Whether hullSeparation gives the distance of shapes that are apart to 1e-7 m: both are convex, at most 200 m long,
+/// and not both are curved (see separationOf).
+bool hasExactSeparation(const ContactShape& a, const ContactShape& b);
+
 /// The coordinate of the shape's farthest point along a direction.
 double reachOf(const ContactShape& shape, const Eigen::Vector3d& direction);
 
-/// Whether a point belongs to a shape: it is inside its solid, or within 1e-8 m of its surface.
+/// A point that is outside a shape by at most this length belongs to the shape.
+constexpr double kOnShape = 1e-8;  // metres
+
+/// Whether a point belongs to a shape: it is inside its solid, or within kOnShape of its surface.
 bool contains(const ContactShape& shape, const Eigen::Vector3d& point);
+
+/// A lower bound of the distance of a point inside a shape from its surface, in metres; 0 if the point is outside.
+double depthInside(const ContactShape& shape, const Eigen::Vector3d& point);
 }  // namespace gpu_planning_scene::core

@@ -23,10 +23,10 @@ Triangle moved(const Triangle& t, const Isometry3d& pose)
   return {pose * t[0], pose * t[1], pose * t[2]};
 }
 
-std::vector<Crossing> crossingsOfSurfaces(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, double reach,
-                                          std::size_t most)
+std::vector<ShapeParts> crossingsOfSurfaces(const CpuTree& a, const CpuTree& b, const Isometry3d& b_in_a, double reach,
+                                            std::size_t most)
 {
-  std::vector<Crossing> found;
+  std::vector<ShapeParts> found;
   std::vector<std::array<std::uint32_t, 2>> stack;
   const auto push = [&](std::uint32_t in_a, std::uint32_t in_b)
   {
@@ -187,21 +187,21 @@ std::array<Vector3d, 2> pointsOfTriangleAndSolid(const Triangle& triangle, const
 }
 }  // namespace
 
-std::vector<Crossing> crossingsOf(const ContactShape& a, const ContactShape& b, double reach, std::size_t most)
+std::vector<ShapeParts> crossingsOf(const ContactShape& a, const ContactShape& b, double reach, std::size_t most)
 {
   if (a.tree->mesh && b.tree->mesh)
     return crossingsOfSurfaces(*a.tree, *b.tree, relativePose(a.pose, b.pose), reach, most);
-  std::vector<Crossing> found;
+  std::vector<ShapeParts> found;
   if (a.tree->mesh)
     for (const std::uint32_t i : trianglesNear(*a.tree, *b.tree, relativePose(b.pose, a.pose), reach, most))
-      found.push_back({i, Crossing::kWhole});
+      found.push_back({i, ShapeParts::kWhole});
   else
     for (const std::uint32_t i : trianglesNear(*b.tree, *a.tree, relativePose(a.pose, b.pose), reach, most))
-      found.push_back({Crossing::kWhole, i});
+      found.push_back({ShapeParts::kWhole, i});
   return found;
 }
 
-std::vector<Crossing> crossingsOfBoxes(const ContactShape& a, const ContactShape& b, std::size_t most)
+std::vector<ShapeParts> crossingsOfBoxes(const ContactShape& a, const ContactShape& b, std::size_t most)
 {
   if (a.tree->triangles.empty() || b.tree->triangles.empty())
     return {};
@@ -213,15 +213,15 @@ Triangle placedTriangle(const ContactShape& shape, std::uint32_t number)
   return moved(shape.tree->triangles[number], shape.pose);
 }
 
-std::array<Vector3d, 2> pointsOf(const ContactShape& a, const ContactShape& b, const Crossing& crossing)
+std::array<Vector3d, 2> pointsOf(const ContactShape& a, const ContactShape& b, const ShapeParts& crossing)
 {
-  if (crossing.of_a == Crossing::kWhole)
+  if (crossing.of_a == ShapeParts::kWhole)
   {
     const auto [on_b, on_a] = pointsOf(b, a, {crossing.of_b, crossing.of_a});
     return {on_a, on_b};
   }
   // Both in the frame of one shape, so that no digits are lost far from the origin.
-  if (crossing.of_b == Crossing::kWhole)
+  if (crossing.of_b == ShapeParts::kWhole)
   {
     const auto [on_a, on_b] =
         pointsOfTriangleAndSolid(moved(a.tree->triangles[crossing.of_a], relativePose(b.pose, a.pose)), *b.tree);

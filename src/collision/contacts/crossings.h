@@ -8,29 +8,20 @@
 #include <Eigen/Geometry>
 
 #include "collision/contacts/contact_shape.h"
+#include "collision/exact/pair_clearance.h"
 #include "collision/geometry/triangle_pair.h"
 
 namespace gpu_planning_scene::core
 {
-/// Two parts of a pair of shapes that are near to each other. A part is a triangle of a mesh, or a primitive as a
-/// whole.
-struct Crossing
-{
-  static constexpr std::uint32_t kWhole = 0xffffffff;
-
-  std::uint32_t of_a;  ///< index in the triangles of the tree; kWhole: the primitive
-  std::uint32_t of_b;
-};
-
 /// The parts that are within `reach` of each other by the exact tests, at most `most` of them. At least one of the two
 /// shapes must be a mesh. A triangle inside a primitive is within its reach.
-std::vector<Crossing> crossingsOf(const ContactShape& a, const ContactShape& b, double reach, std::size_t most);
+std::vector<ShapeParts> crossingsOf(const ContactShape& a, const ContactShape& b, double reach, std::size_t most);
 
 /// The triangles of two boxes that meet, at most `most` pairs; none if a tree has no triangles.
-std::vector<Crossing> crossingsOfBoxes(const ContactShape& a, const ContactShape& b, std::size_t most);
+std::vector<ShapeParts> crossingsOfBoxes(const ContactShape& a, const ContactShape& b, std::size_t most);
 
 /// Points of the two parts. They are equal up to 1e-8 m if the parts meet, and otherwise the nearest points.
-std::array<Eigen::Vector3d, 2> pointsOf(const ContactShape& a, const ContactShape& b, const Crossing& crossing);
+std::array<Eigen::Vector3d, 2> pointsOf(const ContactShape& a, const ContactShape& b, const ShapeParts& crossing);
 
 /// A triangle of a shape, in the frame of its pose.
 Triangle placedTriangle(const ContactShape& shape, std::uint32_t number);

@@ -142,34 +142,34 @@ class TranslationSearch
 };
 
 /// The hull of the parts of one shape.
-PointHull hullOf(const ContactShape& shape, const std::vector<Crossing>& parts, std::uint32_t Crossing::*of_shape)
+PointHull hullOf(const ContactShape& shape, const std::vector<ShapeParts>& parts, std::uint32_t ShapeParts::*of_shape)
 {
   std::vector<Vector3d> points;
-  for (const Crossing& part : parts)
+  for (const ShapeParts& part : parts)
     for (const Vector3d& vertex : placedTriangle(shape, part.*of_shape))
       points.push_back(vertex);
   return PointHull(std::move(points));
 }
 
 /// The direction that is best for the hulls of the parts that meet.
-Vector3d directionOfParts(const ContactPair& pair, const std::vector<Crossing>& parts)
+Vector3d directionOfParts(const ContactPair& pair, const std::vector<ShapeParts>& parts)
 {
   if (!pair.a.tree->mesh)
-    return separationOf(ShapeHull(*pair.a.tree, pair.a.pose), hullOf(pair.b, parts, &Crossing::of_b)).normal;
-  const PointHull a = hullOf(pair.a, parts, &Crossing::of_a);
-  return (pair.b.tree->mesh ? separationOf(a, hullOf(pair.b, parts, &Crossing::of_b))
+    return separationOf(ShapeHull(*pair.a.tree, pair.a.pose), hullOf(pair.b, parts, &ShapeParts::of_b)).normal;
+  const PointHull a = hullOf(pair.a, parts, &ShapeParts::of_a);
+  return (pair.b.tree->mesh ? separationOf(a, hullOf(pair.b, parts, &ShapeParts::of_b))
                             : separationOf(a, ShapeHull(*pair.b.tree, pair.b.pose)))
       .normal;
 }
 
 /// Normals of the largest triangles that meet the other shape, at most kMaxFaceNormals that differ clearly.
-std::vector<Vector3d> faceNormals(const ContactShape& shape, const std::vector<Crossing>& parts,
-                                  std::uint32_t Crossing::*of_shape)
+std::vector<Vector3d> faceNormals(const ContactShape& shape, const std::vector<ShapeParts>& parts,
+                                  std::uint32_t ShapeParts::*of_shape)
 {
   if (!shape.tree->mesh)
     return {};
   std::vector<Vector3d> normals;
-  for (const Crossing& part : parts)
+  for (const ShapeParts& part : parts)
   {
     const Triangle t = placedTriangle(shape, part.*of_shape);
     normals.push_back((t[1] - t[0]).cross(t[2] - t[0]));
@@ -192,17 +192,17 @@ std::vector<Vector3d> faceNormals(const ContactShape& shape, const std::vector<C
 }
 }  // namespace
 
-std::vector<Crossing> meetingParts(const ContactPair& pair, std::size_t most, CpuShapePair::Scratch& scratch)
+std::vector<ShapeParts> meetingParts(const ContactPair& pair, std::size_t most, CpuShapePair::Scratch& scratch)
 {
   const ContactShape& a = pair.a;
   const ContactShape& b = pair.b;
   if (!a.tree->mesh && !b.tree->mesh)
     return {};
-  std::vector<Crossing> parts = crossingsOf(a, b, 0.0, most);
+  std::vector<ShapeParts> parts = crossingsOf(a, b, 0.0, most);
   if (!parts.empty())
     return parts;
   const double farthest = a.tree->half.norm() + b.tree->half.norm() + pair.required;
-  const double distance = pairClearance(*a.tree, a.pose, *b.tree, b.pose, 0.0, farthest, scratch);
+  const double distance = pairClearance(*a.tree, a.pose, *b.tree, b.pose, 0.0, farthest, scratch).clearance;
   return crossingsOf(a, b, distance + kDistanceAccuracy, most);
 }
 
@@ -226,16 +226,16 @@ Separation findSeparation(const std::vector<ContactPair>& pairs, const std::vect
   {
     const ContactPair& pair = pairs[colliding[i]];
     search.offer(hullSeparation(pair.a, pair.b).normal);
-    const std::vector<Crossing> parts = meetingParts(pair, kMaxMeetingParts, scratch);
+    const std::vector<ShapeParts> parts = meetingParts(pair, kMaxMeetingParts, scratch);
     if (parts.empty())
       continue;
     const Vector3d between = directionOfParts(pair, parts);
     for (const double sign : {1.0, -1.0})
     {
       search.offer(sign * between);
-      for (const Vector3d& normal : faceNormals(pair.a, parts, &Crossing::of_a))
+      for (const Vector3d& normal : faceNormals(pair.a, parts, &ShapeParts::of_a))
         search.offer(sign * normal);
-      for (const Vector3d& normal : faceNormals(pair.b, parts, &Crossing::of_b))
+      for (const Vector3d& normal : faceNormals(pair.b, parts, &ShapeParts::of_b))
         search.offer(-sign * normal);
     }
   }

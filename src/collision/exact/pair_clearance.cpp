@@ -1,6 +1,7 @@
 #include "collision/exact/pair_clearance.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,31 +22,43 @@ using Eigen::Vector3d;
 // Distance bounds are widened by this margin, which exceeds their rounding error and kSlack.
 constexpr double kMargin = 1e-9;  // metres
 
-/// The clearance found so far. For two leaves, within(v) of update() tells whether they are within the distance v, and
-/// distance() is an estimate of their distance.
+/// The clearance found so far, and the parts that have it. For two parts, within(v) of update() tells whether they are
+/// within the distance v, and distance() is an estimate of their distance.
 class Best
 {
  public:
-  Best(double required, double most) : required_(required), clearance_(most) {}
+  Best(double required, double most) : required_(required), most_(most), clearance_(most) {}
 
-  double clearance() const { return clearance_; }
-  /// Nodes that are farther from each other than this cannot improve the clearance.
-  double reach() const { return required_ + clearance_ + kMargin; }
+  PairClearance found() const { return {clearance_, clearance_ < most_ ? parts_ : std::nullopt}; }
+  /// Nodes that are farther from each other than this cannot improve the clearance or the parts.
+  double reach() const { return required_ + clearance_ + kResolution + kMargin; }
 
-  /// Returns whether the leaves are nearer than the best so far.
+  /// Returns whether the clearance became less. Bisection leaves it up to kResolution below the truth, so parts that
+  /// are nearer than the known ones may be above it.
   template <class Within, class Distance>
-  bool update(const Within& within, const Distance& distance)
+  bool update(const ShapeParts& parts, const Within& within, const Distance& distance)
   {
     const auto meets = [&](double x) { return within(required_ + x); };
+    if (!meets(clearance_ + kResolution))
+      return false;
+    const double found = distance();
+    if (!parts_ || found < distance_)
+    {
+      parts_ = parts;
+      distance_ = found;
+    }
     if (!meets(clearance_))
       return false;
-    clearance_ = bisectLeast(0.0, clearance_, meets, distance() - required_);
+    clearance_ = bisectLeast(0.0, clearance_, meets, found - required_);
     return true;
   }
 
  private:
   double required_;
+  double most_;
   double clearance_;
+  double distance_ = 0.0;  // of the parts
+  std::optional<ShapeParts> parts_;
 };
 
 /// A stack of box pairs. The boxes below a node are pushed together, and the nearest of them is popped first.
@@ -143,11 +156,13 @@ class SurfaceSearch
          near &= near - 1)
     {
       const unsigned bit = lowestBit(near);
-      const Triangle& of_a = a_.triangles[block_a.first + bit % kBlockTriangles];
-      const Triangle& t = b_.triangles[block_b.first + bit / kBlockTriangles];
+      const ShapeParts parts = {block_a.first + bit % kBlockTriangles, block_b.first + bit / kBlockTriangles};
+      const Triangle& of_a = a_.triangles[parts.of_a];
+      const Triangle& t = b_.triangles[parts.of_b];
       const Triangle of_b = {b_in_a_ * t[0], b_in_a_ * t[1], b_in_a_ * t[2]};
-      is_nearer |= best_.update([&](double distance) { return trianglesWithin(of_a, of_b, distance); },
-                                [&] { return outlineDistance(of_a, of_b); });
+      is_nearer |= best_.update(
+          parts, [&](double distance) { return trianglesWithin(of_a, of_b, distance); },
+          [&] { return outlineDistance(of_a, of_b); });
     }
     if (!is_nearer)
       return;
@@ -184,8 +199,10 @@ void surfaceApartFromSolid(const CpuTree& mesh, const CpuTree& solid, const Isom
       {
         const Triangle& t = mesh.triangles[i];
         const Triangle triangle = {mesh_in_solid * t[0], mesh_in_solid * t[1], mesh_in_solid * t[2]};
-        best.update([&](double distance) { return triangleWithinSolid(triangle, solid.shape, distance); },
-                    [&] { return distanceToSolid(solid.shape, triangle); });
+        best.update(
+            {i, ShapeParts::kWhole},
+            [&](double distance) { return triangleWithinSolid(triangle, solid.shape, distance); },
+            [&] { return distanceToSolid(solid.shape, triangle); });
       }
       continue;
     }
@@ -203,8 +220,8 @@ void surfaceApartFromSolid(const CpuTree& mesh, const CpuTree& solid, const Isom
 }
 }  // namespace
 
-double pairClearance(const CpuTree& a, const Isometry3d& pose_a, const CpuTree& b, const Isometry3d& pose_b,
-                     double required, double most, CpuShapePair::Scratch& scratch)
+PairClearance pairClearance(const CpuTree& a, const Isometry3d& pose_a, const CpuTree& b, const Isometry3d& pose_b,
+                            double required, double most, CpuShapePair::Scratch& scratch)
 {
   Best best(required, most);
   const Isometry3d b_in_a = relativePose(pose_a, pose_b);
@@ -215,8 +232,13 @@ double pairClearance(const CpuTree& a, const Isometry3d& pose_a, const CpuTree& 
   else if (b.mesh)
     surfaceApartFromSolid(b, a, b_in_a, best, scratch);
   else
-    best.update([&](double distance) { return solidsWithin(a.shape, b.shape, b_in_a, distance); },
-                [&] { return distanceOfSolids(a.shape, b.shape, b_in_a); });
-  return best.clearance();
+    best.update(
+        {ShapeParts::kWhole, ShapeParts::kWhole},
+        [&](double distance) { return solidsWithin(a.shape, b.shape, b_in_a, distance); },
+        [&] { return distanceOfSolids(a.shape, b.shape, b_in_a); });
+  PairClearance found = best.found();
+  if (found.parts && !a.mesh && b.mesh)
+    std::swap(found.parts->of_a, found.parts->of_b);
+  return found;
 }
 }  // namespace gpu_planning_scene::core

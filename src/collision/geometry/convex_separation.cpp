@@ -124,10 +124,29 @@ class BestDirection
   }
   Corner offer(const Vector3d& normal) { return offer(normal, {difference_.along(normal)}, 1); }
 
+  /// Tells that no direction has a depth below `depth`, up to rounding.
+  void bound(double depth) { least_depth_ = std::max(least_depth_, depth - kFlat * difference_.size()); }
+
   const std::optional<ConvexSeparation>& found() const { return found_; }
+
+  /// The result. Close to contact, the corners of a direction need not be those of the nearest points.
+  ConvexSeparation result(const Convex& a, const Convex& b) const
+  {
+    ConvexSeparation result = *found_;
+    result.least_depth = std::min(least_depth_, result.depth);
+    const Vector3d between = result.depth * result.normal;
+    if (result.depth < 0.0 && (result.on_a - result.on_b - between).norm() > kRelativeAccuracy * difference_.size())
+    {
+      const Vector3d middle = commonPoint(a, b);
+      result.on_a = middle + 0.5 * between;
+      result.on_b = middle - 0.5 * between;
+    }
+    return result;
+  }
 
  private:
   const Difference& difference_;
+  double least_depth_ = -std::numeric_limits<double>::infinity();
   std::optional<ConvexSeparation> found_;
 };
 
@@ -157,6 +176,7 @@ bool descend(const Difference& difference, BestDirection& best)
     face[i] = *std::find_if(corners.begin(), corners.end(),
                             [&](const Corner& corner) { return corner.difference == simplex.point(i); });
   best.offer(-nearest.normalized(), face, simplex.count());
+  best.bound(-nearest.norm());
   return nearest.norm() + best.found()->depth <= kRelativeAccuracy * difference.size();
 }
 
@@ -310,6 +330,7 @@ void expandPolytope(const Difference& difference, BestDirection& best)
       return;
     const Corner corner = best.offer(face.normal, polytope.cornersOf(face), 3);
     // The polytope lies inside the difference, so no direction is better than its nearest face.
+    best.bound(face.offset);
     if (best.found()->depth - face.offset <= accuracy || face.normal.dot(corner.difference) - face.offset <= accuracy)
       return;
     polytope.expand(corner, kFlat * difference.size());
@@ -361,6 +382,6 @@ ConvexSeparation separationOf(const Convex& a, const Convex& b)
   BestDirection best(difference);
   if (!descend(difference, best))
     expandPolytope(difference, best);
-  return *best.found();
+  return best.result(a, b);
 }
 }  // namespace gpu_planning_scene::core

@@ -66,6 +66,15 @@ Vector3d fromSolid(const Shape& solid, const Vector3d& point)
       solid);
 }
 
+/// The distance of a point from the surface of a cylinder or cone; below 0 outside.
+double depthInFrustum(double bottom_radius, double top_radius, double half_length, const Vector3d& point)
+{
+  const double slope = (top_radius - bottom_radius) / (2.0 * half_length);
+  const double radius = bottom_radius + slope * (point.z() + half_length);
+  return std::min((radius - point.head<2>().norm()) / std::sqrt(1.0 + slope * slope),
+                  half_length - std::abs(point.z()));
+}
+
 /// The point of a disk around the z axis that is farthest along a direction.
 Vector3d farthestOfDisk(double radius, double z, const Vector3d& direction)
 {
@@ -174,6 +183,18 @@ Vector3d vectorFromSolid(const Shape& solid, const Vector3d& point)
     return length > sphere->radius ? Vector3d((1.0 - sphere->radius / length) * point) : Vector3d::Zero();
   }
   return fromSolid(solid, point);
+}
+
+double depthInSolid(const Shape& solid, const Vector3d& point)
+{
+  return std::max(
+      0.0, std::visit(
+               Overloaded{[&](const Box& box) { return (0.5 * box.size - point.cwiseAbs()).minCoeff(); },
+                          [&](const Sphere& sphere) { return sphere.radius - point.norm(); },
+                          [&](const Cylinder& c) { return depthInFrustum(c.radius, c.radius, 0.5 * c.length, point); },
+                          [&](const Cone& c) { return depthInFrustum(c.radius, 0.0, 0.5 * c.length, point); },
+                          [](const auto& /*no primitive*/) { return 0.0; }},
+               solid));
 }
 
 double distanceToSolid(const Shape& solid, const Vector3d& point)

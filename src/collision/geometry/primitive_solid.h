@@ -23,6 +23,9 @@ Eigen::Vector3d vectorFromSolid(const Shape& solid, const Eigen::Vector3d& point
 /// The distance of a point from the solid, in the solid's frame; 0 inside.
 double distanceToSolid(const Shape& solid, const Eigen::Vector3d& point);
 
+/// The distance of a point inside the solid from its surface, in the solid's frame; 0 outside.
+double depthInSolid(const Shape& solid, const Eigen::Vector3d& point);
+
 /// Distances as convexDistance() computes them: of a closed triangle in the solid's frame from the solid, and of two
 /// solids, where `b_in_a` is the pose of `b` in the frame of `a`; 0 if they intersect.
 double distanceToSolid(const Shape& solid, const Triangle& triangle);

@@ -150,7 +150,8 @@ bool nearestLeaf(const ShapeInstance& octree, const ShapeInstance& solid, double
       break;
     const Leaf candidate = leafOf(octree, place.first, place.second);
     const double found = core::pairClearance(solid.shape->tree(), *solid.pose, candidate.shape->tree(), candidate.pose,
-                                             required, least, scratch);
+                                             required, least, scratch)
+                             .clearance;
     if (found >= least)
       continue;
     least = found;
@@ -165,8 +166,8 @@ double clearance(const ShapeInstance& a, const ShapeInstance& b, double most, Pa
   const ShapeKind kind_a = a.shape->kind();
   const ShapeKind kind_b = b.shape->kind();
   if (kind_a == ShapeKind::Solid && kind_b == ShapeKind::Solid)
-    return core::pairClearance(a.shape->tree(), *a.pose, b.shape->tree(), *b.pose, a.padding + b.padding, most,
-                               scratch);
+    return core::pairClearance(a.shape->tree(), *a.pose, b.shape->tree(), *b.pose, a.padding + b.padding, most, scratch)
+        .clearance;
   if (kind_a == ShapeKind::Octree || kind_b == ShapeKind::Octree)
   {
     Leaf leaf;

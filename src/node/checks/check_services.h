@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 
+#include "collision/problem/state_range.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/state_inspector.h"
 #include "node/messages/messages.h"
@@ -46,14 +47,19 @@ class CheckServices
   /// An inspector of this scene. The inspector of the newest scene is kept. Throws Error as StateInspector does.
   std::shared_ptr<const StateInspector> inspectorOf(const std::shared_ptr<const PlanningScene>& scene);
 
-  /// Stops the computation of contacts and clearance, and the waits for revisions. These requests, running and queued,
-  /// get the status SHUTTING_DOWN. Other requests get this status if they wait for a checker for some seconds more.
+  /// Stops the computation of contacts, clearance and distances, and the waits for revisions. These requests, running
+  /// and queued, get the status SHUTTING_DOWN. Other requests get this status if they wait for a checker for some
+  /// seconds more.
   void stop();
 
  private:
   CheckAnswer answerOf(CheckJob job) const;
   std::optional<Snapshot> wantedScene(std::uint64_t revision);
-  void inspect(const CheckStates::Request& request, const CheckAnswer& answer, CheckStates::Response& response);
+  void inspect(const CheckStates::Request& request, const CheckAnswer& answer,
+               const std::vector<int>& gradient_variables, CheckStates::Response& response);
+  void measure(const CheckStates::Request& request, const CheckAnswer& answer, const StateInspector& inspector,
+               const StateRange& part, const std::vector<int>& gradient_variables,
+               CheckStates::Response& response) const;
 
   const SceneStore& store_;
   CheckServer& server_;

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "base/seconds_since.h"
+#include "base/text/number_text.h"
 #include "base/text/one_line.h"
 #include "gpu_planning_scene/error.h"
 #include "model/joint_limits.h"
@@ -26,6 +27,31 @@ std::vector<int> allColumns(const RobotModel& robot)
   std::vector<int> columns(robot.variables().size());
   std::iota(columns.begin(), columns.end(), 0);
   return columns;
+}
+
+bool hasDistances(const CheckStates::Request& request)
+{
+  return request.clearance || request.nearest || request.distances != CheckStates::Request::NO_DISTANCES;
+}
+
+void requireDistances(const CheckStates::Request& request)
+{
+  if (request.distances > CheckStates::Request::ALL_PAIRS)
+    throw Error("distances is " + std::to_string(request.distances) +
+                "; it must be NO_DISTANCES, NEAREST_OF_EACH_BODY or ALL_PAIRS");
+  if (request.distances == CheckStates::Request::NO_DISTANCES && request.distance_range != 0.0)
+    throw Error("distance_range is set, but distances is NO_DISTANCES: set distances, or leave both out");
+  if (!(request.distance_range >= 0.0))
+    throw Error("distance_range is " + numberText(request.distance_range) + " m; it must be at least 0");
+}
+
+DistanceQuery queryOf(const CheckStates::Request& request)
+{
+  DistanceQuery query;
+  if (request.distance_range > 0.0)
+    query.range = request.distance_range;
+  query.nearest_of_each_body = request.distances == CheckStates::Request::NEAREST_OF_EACH_BODY;
+  return query;
 }
 }  // namespace
 
@@ -84,7 +110,9 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         job.matrix = scene.matrix;
         if (scene.is_changed || is_of_current_state || wanted)
           job.scene = scene.now;
-        job.keep_states = request.max_contacts != 0 || request.clearance || request.nearest;
+        requireDistances(request);
+        const std::vector<int> gradient_variables = request.joint_names.empty() ? allColumns(robot) : job.columns;
+        job.keep_states = request.max_contacts != 0 || hasDistances(request);
         const bool inspects = job.keep_states;
         std::optional<Admission::Pass> pass;
         if (inspects)
@@ -106,22 +134,22 @@ CheckStates::Response CheckServices::checkStates(const CheckStates::Request& req
         if (inspects)
         {
           const auto start = std::chrono::steady_clock::now();
-          inspect(request, answer, response);
+          inspect(request, answer, gradient_variables, response);
           response.seconds += secondsSince(start);
         }
       });
 }
 
 void CheckServices::inspect(const CheckStates::Request& request, const CheckAnswer& answer,
-                            CheckStates::Response& response)
+                            const std::vector<int>& gradient_variables, CheckStates::Response& response)
 {
   const std::vector<std::uint8_t>& valid = answer.result.valid;
   const auto colliding = static_cast<std::size_t>(std::count(valid.begin(), valid.end(), 0));
-  const bool has_distances = request.clearance || request.nearest;
+  const bool has_distances = hasDistances(request);
   const std::size_t inspected = has_distances ? valid.size() : colliding;
   if (inspected > options_.max_inspected_states)
-    throw Error("contacts or clearance requested for " + std::to_string(inspected) + " states; the limit is " +
-                std::to_string(options_.max_inspected_states) +
+    throw Error("contacts, clearance or distances requested for " + std::to_string(inspected) +
+                " states; the limit is " + std::to_string(options_.max_inspected_states) +
                 " (limits/inspected_states): send fewer states per request");
   if (inspected == 0)
     return;
@@ -145,26 +173,52 @@ void CheckServices::inspect(const CheckStates::Request& request, const CheckAnsw
                     " contacts (limits/contacts): request fewer per state (max_contacts), or send fewer states");
     }
   }
-  constexpr std::size_t kStatesPerPart = 64;  // a part takes well below a second, so that the node can stop
-  for (std::size_t i = 0; has_distances && i < valid.size(); i += kStatesPerPart)
+  // The parts grow as long as they take well below a second, so that the node can stop.
+  constexpr std::size_t kMostOfPart = 64;
+  constexpr double kSecondsOfPart = 0.1;
+  std::size_t part = 1;
+  for (std::size_t i = 0; has_distances && i < valid.size();)
   {
     if (stopping_)
       throw ShuttingDown();
-    const std::size_t count = std::min(kStatesPerPart, valid.size() - i);
-    const double* states = answer.states.data() + i * width;
-    if (request.clearance)
-      for (const Clearance& clearance : inspector->clearances(states, count, request.group))
-      {
-        response.clearance_world.push_back(clearance.world);
-        response.clearance_self.push_back(clearance.self);
-      }
-    if (request.nearest)
-      for (const NearestPairs& pairs : inspector->nearestPairs(states, count, request.group))
-      {
-        response.nearest_world.push_back(messageOf(pairs.world, *answer.scene));
-        response.nearest_self.push_back(messageOf(pairs.self, *answer.scene));
-      }
+    const auto begin = std::chrono::steady_clock::now();
+    const std::size_t count = std::min(part, valid.size() - i);
+    measure(request, answer, *inspector, {i, count}, gradient_variables, response);
+    i += count;
+    if (secondsSince(begin) < kSecondsOfPart)
+      part = std::min(2 * part, kMostOfPart);
   }
+  if (request.distances != CheckStates::Request::NO_DISTANCES)
+    for (const int variable : gradient_variables)
+      response.gradient_names.push_back(answer.scene->robot->variables()[static_cast<std::size_t>(variable)].name);
+}
+
+void CheckServices::measure(const CheckStates::Request& request, const CheckAnswer& answer,
+                            const StateInspector& inspector, const StateRange& part,
+                            const std::vector<int>& gradient_variables, CheckStates::Response& response) const
+{
+  const double* states = answer.states.data() + part.begin * answer.scene->robot->variables().size();
+  if (request.clearance)
+    for (const Clearance& clearance : inspector.clearances(states, part.count, request.group))
+    {
+      response.clearance_world.push_back(clearance.world);
+      response.clearance_self.push_back(clearance.self);
+    }
+  if (request.nearest)
+    for (const NearestPairs& pairs : inspector.nearestPairs(states, part.count, request.group))
+    {
+      response.nearest_world.push_back(messageOf(pairs.world, *answer.scene));
+      response.nearest_self.push_back(messageOf(pairs.self, *answer.scene));
+    }
+  if (request.distances == CheckStates::Request::NO_DISTANCES)
+    return;
+  const BodyDistances distances = inspector.distances(states, part.count, request.group, queryOf(request));
+  if (response.distances.size() + distances.pairs.size() > options_.max_contacts)
+    throw Error("more than " + std::to_string(options_.max_contacts) +
+                " distances (limits/contacts): request a shorter distance_range, the nearest pairs, or fewer states");
+  for (std::size_t state = 0; state < part.count; ++state)
+    for (std::size_t pair = distances.first[state]; pair < distances.first[state + 1]; ++pair)
+      response.distances.push_back(messageOf(distances, pair, gradient_variables, *answer.scene, part.begin + state));
 }
 
 /// The inspector is built without the lock, so that several can be built at the same time. The inspector of the newest

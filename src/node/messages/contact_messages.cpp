@@ -14,6 +14,16 @@ std::uint32_t bodyType(const PlanningScene& scene, std::int32_t body)
     return ContactInformation::ROBOT_LINK;
   return index < links + scene.objects.size() ? ContactInformation::WORLD_OBJECT : ContactInformation::ROBOT_ATTACHED;
 }
+
+/// Sets the bodies of a message with the fields of NearestPair.
+template <class Message>
+void setBodies(Message& message, const BodyPair& bodies, const PlanningScene& scene)
+{
+  message.body_1 = scene.bodyName(bodies[0]);
+  message.body_type_1 = bodyType(scene, bodies[0]);
+  message.body_2 = scene.bodyName(bodies[1]);
+  message.body_type_2 = bodyType(scene, bodies[1]);
+}
 }  // namespace
 
 ContactInformation messageOf(const Contact& contact, const PlanningScene& scene, std::size_t state)
@@ -37,12 +47,27 @@ NearestPairMessage messageOf(const NearestPair& pair, const PlanningScene& scene
   message.distance = pair.distance;
   message.point_1 = pointOf(pair.points[0]);
   message.point_2 = pointOf(pair.points[1]);
-  if (pair.bodies == kNoPair)
-    return message;
-  message.body_1 = scene.bodyName(pair.bodies[0]);
-  message.body_type_1 = bodyType(scene, pair.bodies[0]);
-  message.body_2 = scene.bodyName(pair.bodies[1]);
-  message.body_type_2 = bodyType(scene, pair.bodies[1]);
+  if (pair.bodies != kNoPair)
+    setBodies(message, pair.bodies, scene);
+  return message;
+}
+
+BodyDistanceMessage messageOf(const BodyDistances& distances, std::size_t pair, const std::vector<int>& variables,
+                              const PlanningScene& scene, std::size_t state)
+{
+  const BodyDistance& found = distances.pairs[pair];
+  BodyDistanceMessage message;
+  message.state = static_cast<std::uint32_t>(state);
+  message.collides = static_cast<std::uint8_t>(found.collides);
+  message.distance = found.distance;
+  message.depth_at_least = found.depth_at_least;
+  setBodies(message, found.bodies, scene);
+  message.point_1 = pointOf(found.points[0]);
+  message.point_2 = pointOf(found.points[1]);
+  setPosition(message.normal, found.normal);
+  const double* gradient = &distances.gradients[pair * scene.robot->variables().size()];
+  for (const int variable : variables)
+    message.gradient.push_back(gradient[variable]);
   return message;
 }
 }  // namespace gpu_planning_scene::core

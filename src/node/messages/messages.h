@@ -6,6 +6,7 @@
 #include <gpu_planning_scene/AllowedCollisionMatrix.h>
 #include <gpu_planning_scene/AnswerStatus.h>
 #include <gpu_planning_scene/ApplyPlanningScene.h>
+#include <gpu_planning_scene/BodyDistance.h>
 #include <gpu_planning_scene/CheckMotions.h>
 #include <gpu_planning_scene/CheckStates.h>
 #include <gpu_planning_scene/CheckTrajectory.h>
@@ -29,6 +30,7 @@ namespace gpu_planning_scene::core
 {
 using AllowedCollisionMatrixMessage = gpu_planning_scene::AllowedCollisionMatrix;
 using ObjectTypeMessage = gpu_planning_scene::ObjectType;
+using BodyDistanceMessage = gpu_planning_scene::BodyDistance;
 using NearestPairMessage = gpu_planning_scene::NearestPair;
 using PlanningSceneMessage = gpu_planning_scene::PlanningScene;
 }  // namespace gpu_planning_scene::core

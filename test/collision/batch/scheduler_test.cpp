@@ -99,6 +99,12 @@ class SchedulerTest : public testing::Test
   void restTime() const { std::this_thread::sleep_for(std::chrono::duration<double>(1.2 * limits_.retry_seconds)); }
 
   static constexpr std::size_t kCount = 30'000;
+  // The cores take long enough for them that a device joins and the caller is asked; sanitized code is slower.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  static constexpr std::size_t kLong = 1'000'000;
+#else
+  static constexpr std::size_t kLong = 20'000'000;
+#endif
   static constexpr std::size_t kMany = 300'000;  // the cores take longer for them than a thread to wake up
   const Script device_ = std::make_shared<DeviceScript>();
   std::vector<Script> devices_ = {device_};
@@ -150,7 +156,7 @@ TEST_F(SchedulerTest, ADeviceThatIsBusyAtFirstJoinsLater)
   const auto gate = std::make_shared<std::promise<void>>();
   device_->prepares = {[gate] { gate->get_future().wait(); }};
   scheduler().setScene(cartScene(-1.0, 2));
-  const auto states = std::make_shared<std::vector<double>>(cartStates(20'000'000));
+  const auto states = std::make_shared<std::vector<double>>(cartStates(kLong));
   StateBatch batch{states->data(), states->size()};
   batch.owner = states;
   bool is_open = false;
@@ -464,7 +470,7 @@ TEST_F(SchedulerTest, AnErrorOfTheCallerEndsTheCheck)
     scheduler_.reset();
     scheduler();
     device_->parts.assign(100'000, [] { std::this_thread::sleep_for(std::chrono::milliseconds(1)); });
-    const std::vector<double> states = cartStates(20'000'000);
+    const std::vector<double> states = cartStates(kLong);
     StateBatch batch{states.data(), states.size()};
     batch.go_on = [](std::size_t /*answered*/) -> bool { throw Error("interrupted"); };
     EXPECT_EQ(errorOf([&] { scheduler().check(batch); }), "interrupted");
@@ -574,7 +580,7 @@ TEST_F(SchedulerTest, TheCallerHearsOfTheProgressAndCanEndTheCheck)
     scheduler();
     const auto slow = [] { std::this_thread::sleep_for(std::chrono::milliseconds(30)); };
     device_->parts.assign(1000, slow);
-    const std::vector<double> states = cartStates(20'000'000);
+    const std::vector<double> states = cartStates(kLong);
     const auto caller = std::this_thread::get_id();
     StateBatch batch{states.data(), states.size()};
     std::size_t calls = 0;

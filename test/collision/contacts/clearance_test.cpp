@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "collision/bounds/problem_maker.h"
+#include "collision/contacts/padded_scene.h"
 #include "collision/exact/pair_clearance.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/state_inspector.h"
 #include "oracle/problem_oracle.h"
-#include "support/obstacles.h"
 #include "support/seed.h"
 #include "support/test_scenes.h"
 
@@ -34,20 +34,7 @@ std::shared_ptr<const CollisionProblem> partOf(const PlanningScene& scene, const
 class ClearanceTest : public testing::Test
 {
  protected:
-  PlanningScene scene() const
-  {
-    PlanningScene made = *test_.scene;
-    const auto objects = generateObstacles({12, Eigen::Vector3d(0, 0, 0.5), 0.9, 1.5, 0.3}, 5);
-    for (const WorldObject& object : objects)
-    {
-      made.objects.push_back(object);
-      made.objects.back().id = "more " + std::to_string(made.objects.size());
-      made.objects.back().padding = 0.004;
-    }
-    made.objects.push_back({"floor", Eigen::Isometry3d::Identity(), {{HalfSpace{Eigen::Vector3d::UnitZ(), -0.2}}}});
-    made.link_padding.assign(made.robot->links().size(), 0.006);
-    return made;
-  }
+  PlanningScene scene() const { return paddedScene(test_); }
 
   void expectTheOracles(const PlanningScene& scene, const std::string& group, std::size_t count)
   {

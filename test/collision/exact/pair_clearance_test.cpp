@@ -127,7 +127,7 @@ TEST_F(PairClearance, IsThatOfTheNearestTrianglesToAMicrometreAndNeverMore)
       continue;
     ++apart;
     const double most = i % 6 == 0 ? random_.uniform(0.0, 2.0) : i % 13 == 0 ? 1e300 : 1000.0;
-    const double found = pairClearance(*placed.a, pose_a, *placed.b, pose_b, required, most, scratch);
+    const double found = pairClearance(*placed.a, pose_a, *placed.b, pose_b, required, most, scratch).clearance;
     if (!placed.within(required + most))
     {
       EXPECT_EQ(found, most) << "seed " << kSeed << ", pair " << i;
@@ -153,7 +153,8 @@ TEST_F(PairClearance, OfTwoSolidsIsTheirDistanceToAMicrometreAndNeverMore)
       continue;
     ++apart;
     const double found =
-        pairClearance(*makeSolidTree(a), Isometry3d::Identity(), *makeSolidTree(b), pose, 0.0, 100.0, scratch);
+        pairClearance(*makeSolidTree(a), Isometry3d::Identity(), *makeSolidTree(b), pose, 0.0, 100.0, scratch)
+            .clearance;
     EXPECT_TRUE(found == 0.0 || !solidsWithin(a, b, pose, found)) << "seed " << kSeed << ", pair " << i;
     EXPECT_TRUE(solidsWithin(a, b, pose, found + kAccuracy)) << "seed " << kSeed << ", pair " << i;
     EXPECT_NEAR(distanceOfSolids(a, b, pose), found, 2e-6) << "seed " << kSeed << ", pair " << i;

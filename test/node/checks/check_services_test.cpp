@@ -541,6 +541,69 @@ TEST_F(Service, TheNearestPairHasASignedDistanceAndPoints)
   EXPECT_EQ(self.body_1.empty(), std::isinf(self.distance));
 }
 
+TEST_F(Service, DistancesHavePointsNormalsAndGradientsOfTheRequestsVariables)
+{
+  CheckStates::Request asked = request({"slide", "turn"}, {0.5, 0.0, 0.9, 0.0});
+  asked.distances = CheckStates::Request::ALL_PAIRS;
+  asked.distance_range = 0.35;
+  const CheckStates::Response response = answer(asked);
+  const std::vector<std::string> names = {"slide", "turn"};
+  EXPECT_EQ(names, response.gradient_names);
+  const auto of_state = [&](std::uint32_t state)
+  {
+    return *std::find_if(response.distances.begin(), response.distances.end(),
+                         [&](const BodyDistanceMessage& each) { return each.state == state && each.body_2 == "wall"; });
+  };
+  const BodyDistanceMessage apart = of_state(0);
+  EXPECT_EQ("cart", apart.body_1);
+  EXPECT_EQ(ContactInformation::WORLD_OBJECT, apart.body_type_2);
+  EXPECT_NEAR(0.3, apart.distance, 2e-6) << "the cart reaches to 0.6 m, the wall begins at 0.9 m";
+  EXPECT_FALSE(apart.collides);
+  EXPECT_NEAR(0.9, apart.point_2.x, 1e-6);
+  EXPECT_NEAR(1.0, apart.normal.x, 1e-9);
+  ASSERT_EQ(2u, apart.gradient.size());
+  EXPECT_NEAR(-1.0, apart.gradient[0], 1e-9) << "the slide moves the cart to the wall";
+  const BodyDistanceMessage deep = of_state(1);
+  EXPECT_NEAR(-0.1, deep.distance, 1e-6) << "the cart reaches to 1.0 m";
+  EXPECT_TRUE(deep.collides);
+  EXPECT_NEAR(0.1, deep.depth_at_least, 1e-6) << "two boxes: the depth is exact";
+  EXPECT_NEAR(-1.0, deep.gradient[0], 1e-6);
+  asked.distance_range = 0.25;
+  EXPECT_EQ(1u, answer(asked).distances.front().state) << "the first state is farther from all bodies";
+}
+
+TEST_F(Service, DistancesOfEachBodyAreThoseOfItsNearestPair)
+{
+  CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.5});
+  asked.distances = CheckStates::Request::NEAREST_OF_EACH_BODY;
+  const CheckStates::Response response = answer(asked);
+  ASSERT_FALSE(response.distances.empty());
+  EXPECT_EQ(1, std::count_if(response.distances.begin(), response.distances.end(),
+                             [](const BodyDistanceMessage& each) { return each.body_1 == "cart"; }));
+}
+
+TEST_F(Service, AWrongRequestForDistancesIsRefused)
+{
+  CheckStates::Request asked = request({"turn", "slide"}, {0.0, 0.5});
+  asked.distances = 3;
+  expectRefusal(asked, "NEAREST_OF_EACH_BODY");
+  asked.distances = CheckStates::Request::NO_DISTANCES;
+  asked.distance_range = 0.1;
+  expectRefusal(asked, "NO_DISTANCES");
+  asked.distances = CheckStates::Request::ALL_PAIRS;
+  for (const double range : {-1.0, std::nan("")})
+  {
+    asked.distance_range = range;
+    expectRefusal(asked, "distance_range");
+  }
+  CheckServices bounded(store, server, memory, {1000, 1000000, 10, 2}, {});
+  asked = request({"turn", "slide"}, {0.0, 0.5, 0.0, 0.5, 0.0, 0.5});
+  asked.distances = CheckStates::Request::ALL_PAIRS;
+  const CheckStates::Response refused = bounded.checkStates(asked);
+  EXPECT_FALSE(refused.success);
+  EXPECT_NE(std::string::npos, refused.message.find("limits/contacts")) << refused.message;
+}
+
 TEST_F(Service, NoMoreStatesAreInspectedThanTheLimit)
 {
   CheckStates::Request asked = request({"turn", "slide"}, std::vector<double>(22, 0.0));

@@ -381,9 +381,9 @@ TEST_F(Sharding, WithoutAnAnswerTheStatusIsThatOfTheLastReason)
   ShardedCheckerOptions impatient;
   impatient.patience = 0.1;
   CheckStates::Request request = stateRequest(free_state);
-  const auto expect_status = [&](std::vector<std::string> nodes, std::uint8_t status)
+  const auto expect_status = [&](const std::vector<std::string>& nodes, std::uint8_t status)
   {
-    ShardedChecker checker(std::move(nodes), impatient);
+    ShardedChecker checker(nodes, impatient);
     const CheckStates::Response response = checker.check(request);
     EXPECT_FALSE(response.success);
     EXPECT_EQ(status, response.status) << response.message;

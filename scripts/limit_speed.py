@@ -1,0 +1,100 @@
+#!/usr/bin/python3
+"""Slows a velocity command down where the robot comes near to something: an example, not a safety device.
+
+Topics: joint_states in; command in and limited_command out (sensor_msgs/JointState with names and velocities, rad/s or
+m/s). The next ~horizon seconds (0.5) limit the speed. A pair of bodies that comes nearer than ~slow (0.1 m) allows less
+than the commanded speed, and none at ~stop (0.02 m). ~group: the group that moves. ~node: the planning_scene_node
+(/planning_scene). Without an answer of the node, or if joint values are older than 0.25 s, the velocities are 0. The
+controller must stop by itself where no command comes any more."""
+import math
+
+OLDEST = 0.25  # seconds
+NOISE = 1e-5  # metres: a distance that shrinks by less stays the same
+STEP = 0.05  # radians or metres: no joint moves farther between two states that are checked
+
+
+def future_states(now, velocities, horizon):
+    """The rows of joint values of the next `horizon` seconds at these velocities, from `now` on."""
+    steps = max(1, math.ceil(horizon * max(abs(velocity) for velocity in velocities) / STEP))
+    return [[value + velocity * horizon * i / steps for value, velocity in zip(now, velocities)]
+            for i in range(steps + 1)]
+
+
+def scale_of(states, slow, stop):
+    """The factor of a command. `states`: for each future state at full speed, the first one now, the distances (m) of
+    the pairs of bodies that are nearer than `slow`. Within the horizon, a robot at this factor reaches only states that
+    allow this factor."""
+    allowed = 1.0  # by the states so far
+    for i, state in enumerate(states):
+        for pair, distance in state.items():
+            if distance < states[0].get(pair, slow) - NOISE:
+                allowed = min(allowed, max(0.0, (distance - stop) / (slow - stop)))
+        if allowed * (len(states) - 1) < i:
+            return max(allowed, (i - 1) / (len(states) - 1))
+    return allowed
+
+
+class SpeedLimiter:
+    def __init__(self):
+        import rospy
+        from gpu_planning_scene.srv import CheckStates, CheckStatesRequest
+        from sensor_msgs.msg import JointState
+        self.ros = rospy
+        self.horizon = rospy.get_param("~horizon", 0.5)
+        self.slow = rospy.get_param("~slow", 0.1)
+        self.stop = rospy.get_param("~stop", 0.02)
+        self.all_pairs = CheckStatesRequest.ALL_PAIRS
+        self.group = rospy.get_param("~group", "")
+        if not (self.horizon > 0 and self.slow > self.stop >= 0):
+            raise SystemExit("limit_speed.py: ~horizon must be above 0, and ~slow above ~stop, which is at least 0")
+        self.values = {}  # joint -> (position, time of arrival)
+        service = rospy.get_param("~node", "/planning_scene") + "/check_states"
+        rospy.wait_for_service(service)
+        self.check = rospy.ServiceProxy(service, CheckStates)
+        self.limited = rospy.Publisher("limited_command", JointState, queue_size=1)
+        rospy.Subscriber("joint_states", JointState, self.take_values, queue_size=10)
+        rospy.Subscriber("command", JointState, self.take_command, queue_size=1)
+
+    def take_values(self, message):
+        now = self.ros.get_time()
+        self.values.update((name, (position, now)) for name, position in zip(message.name, message.position))
+
+    def take_command(self, message):
+        """Publishes the command with scaled velocities."""
+        try:
+            scale = self.scale(message)
+        except Exception as error:  # whatever is wrong, the robot stops
+            self.ros.logwarn_throttle(1, f"limit_speed.py: stopped: {error}")
+            scale = 0.0
+        message.velocity = [scale * velocity if scale else 0.0 for velocity in message.velocity]
+        self.limited.publish(message)
+
+    def scale(self, message):
+        if not message.name or len(message.velocity) != len(message.name):
+            raise ValueError("the command needs one velocity for each name")
+        if not all(math.isfinite(velocity) for velocity in message.velocity):
+            raise ValueError("a velocity of the command is not finite")
+        now = self.ros.get_time()
+        for name in message.name:
+            if name not in self.values or now - self.values[name][1] > OLDEST:
+                raise ValueError(f"joint_states had no value of {name} in the last {OLDEST} s")
+        states = future_states([self.values[name][0] for name in message.name], message.velocity, self.horizon)
+        answer = self.check(group=self.group, joint_names=message.name, positions=sum(states, []),
+                            distances=self.all_pairs, distance_range=self.slow)
+        if not answer.success:
+            raise ValueError(answer.message)
+        near = [{} for _ in states]
+        for found in answer.distances:
+            near[found.state][found.body_1, found.body_2] = found.distance
+        return scale_of(near, self.slow, self.stop)
+
+
+def main():
+    import rospy
+    rospy.init_node("limit_speed")
+    SpeedLimiter()
+    rospy.spin()
+
+
+if __name__ == "__main__":
+    main()
