@@ -106,7 +106,7 @@ class BestDirection
   /// Offers a direction of unit length. `corners`: of a face of the difference that contains depth * normal.
   Corner offer(const Vector3d& normal, const std::array<Corner, 3>& corners, int count)
   {
-    const Corner farthest = difference_.along(normal);
+    Corner farthest = difference_.along(normal);
     const double depth = normal.dot(farthest.difference);
     if (found_ && depth >= found_->depth)
       return farthest;
