@@ -80,21 +80,21 @@ TEST_F(ClearanceTest, OfAGroupIsOfThePairsThatItMoves)
 std::shared_ptr<const CollisionProblem> pairOf(const PlanningScene& scene, const BodyPair& bodies)
 {
   CollisionProblem problem = makeProblem(scene, "", nullptr);
-  const auto isOfPair = [&](std::int32_t a, std::int32_t b) {
+  const auto is_of_pair = [&](std::int32_t a, std::int32_t b) {
     return BodyPair{std::min(a, b), std::max(a, b)} == bodies;
   };
   std::vector<InstancePair> self_pairs;
   for (const auto& pair : problem.self_pairs)
-    if (isOfPair(problem.robot[pair[0]].body, problem.robot[pair[1]].body))
+    if (is_of_pair(problem.robot[pair[0]].body, problem.robot[pair[1]].body))
       self_pairs.push_back(pair);
   problem.self_pairs = self_pairs;
   for (std::size_t i = 0; i < problem.robot.size(); ++i)
   {
     for (std::size_t k = 0; k < problem.world.size(); ++k)
-      if (!isOfPair(problem.robot[i].body, problem.world[k].body))
+      if (!is_of_pair(problem.robot[i].body, problem.world[k].body))
         problem.world_pairs[i * problem.world.size() + k] = 0;
     for (std::size_t k = 0; k < problem.half_spaces.size(); ++k)
-      if (!isOfPair(problem.robot[i].body, problem.half_spaces[k].body))
+      if (!is_of_pair(problem.robot[i].body, problem.half_spaces[k].body))
         problem.half_space_pairs[i * problem.half_spaces.size() + k] = 0;
   }
   return std::make_shared<const CollisionProblem>(problem);

@@ -164,12 +164,12 @@ TEST_F(PairClearance, OfTwoSolidsIsTheirDistanceToAMicrometreAndNeverMore)
 
 TEST_F(PairClearance, BisectionIsRightWithAnyEstimateAndShortWithAGoodOne)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
+  constexpr double kUnbounded = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 1000; ++i)
   {
     const double least = random_.uniform(1e-5, 2.0);
-    for (const double estimate :
-         {std::nan(""), infinity, -infinity, 0.0, 2.0, random_.uniform(-1.0, 3.0), least, least + 5e-7, least - 5e-7})
+    for (const double estimate : {std::nan(""), kUnbounded, -kUnbounded, 0.0, 2.0, random_.uniform(-1.0, 3.0), least,
+                                  least + 5e-7, least - 5e-7})
     {
       int calls = 0;
       const auto holds = [&](double x)
