@@ -62,7 +62,7 @@ struct DistanceQuery
   double range = std::numeric_limits<double>::infinity();
   /// True: only the nearest pair of each link and attached object. It takes much less time than all pairs.
   bool nearest_of_each_body = false;
-  bool gradients = true;
+  bool gradients = true;  ///< see BodyDistances::gradients
   /// False: a pair in collision has the distance 0, and neither points nor a normal. It takes less time.
   bool signed_distance = true;
 };
@@ -95,8 +95,8 @@ struct BodyDistances
   /// of the bodies.
   std::vector<BodyDistance> pairs;
   /// Row-major, one row per pair: the derivative of the distance by each variable, in metres per unit of the variable.
-  /// Where other points are as near, up to 1e-6 m, it is that of the points of the pair. In collision, it is that of
-  /// the contact, which moves with the bodies. The derivatives by the values of a quaternion are those before it is
+  /// Where other points are as near, it is that of the points of the pair. In collision, it is that of the contact,
+  /// which moves with the bodies. The derivatives by the values of a quaternion are those before it is
   /// normalised. A row without a normal is NaN. Empty unless the query has gradients.
   std::vector<double> gradients;
 };

@@ -81,7 +81,6 @@ BodyDistance distanceOf(const NearBodies& pair)
   found.normal = directionFrom(pair.points[0], pair.points[1]);
   return found;
 }
-
 }  // namespace
 
 NearestPairs nearestPairsOf(const PlanningScene& scene, const InspectedGroup& group,

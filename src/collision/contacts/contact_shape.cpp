@@ -148,7 +148,7 @@ bool hasExactSeparation(const ContactShape& a, const ContactShape& b)
 {
   const auto is_curved = [](const ContactShape& shape)
   { return std::holds_alternative<Cylinder>(shape.tree->shape) || std::holds_alternative<Cone>(shape.tree->shape); };
-  constexpr double kLargest = 100.0;  // metres
+  constexpr double kLargest = 100.0;  // metres; half of both diagonals
   return a.is_convex && b.is_convex && !(is_curved(a) && is_curved(b)) &&
          a.tree->half.norm() + b.tree->half.norm() <= kLargest;
 }

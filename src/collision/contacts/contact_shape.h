@@ -68,8 +68,8 @@ double sphereRadius(const CpuTree& tree);
 /// The separation of the hulls of two shapes, in the frame of the poses. The points lie on the surfaces of the hulls.
 ConvexSeparation hullSeparation(const ContactShape& a, const ContactShape& b);
 
-/// Whether hullSeparation gives the distance of shapes that are apart to 1e-7 m: both are convex, at most 200 m long,
-/// and not both are curved (see separationOf).
+/// Whether hullSeparation gives the distance of shapes that are apart to 1e-7 m: both are convex, their diagonals are
+/// together at most 200 m long, and not both are curved (see separationOf).
 bool hasExactSeparation(const ContactShape& a, const ContactShape& b);
 
 /// The coordinate of the shape's farthest point along a direction.

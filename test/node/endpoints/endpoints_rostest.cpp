@@ -1,4 +1,4 @@
-// What a client gets if the answer of a service fails, or contradicts itself. The endpoints are in this process.
+// The answers that a client gets from a service that fails or contradicts itself. The endpoints are in this process.
 
 #include <functional>
 
