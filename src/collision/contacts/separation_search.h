@@ -28,7 +28,7 @@ std::vector<ShapeParts> meetingParts(const ContactPair& pair, std::size_t most, 
 /// A short translation that ends the collisions of all `pairs`, which are the pairs of shapes of two bodies.
 /// `colliding`: the numbers of those pairs that collide; at least one. After the translation, the exact tests find that
 /// the bodies are more than 1e-9 m farther apart than required. For one pair of convex solids it is the shortest one,
-/// up to 1e-8 of the sizes, or up to 1 % if a round solid or a mesh of many faces surrounds the middle of the other one
+/// up to 1e-8 of the sizes, or up to 1 % if a round solid or a mesh of many faces contains the middle of the other one
 /// (see separationOf). For other pairs it is the shortest of a few directions: the normals of faces that meet, and the
 /// directions that are best for the convex hulls of the shapes and of their parts that meet.
 Separation findSeparation(const std::vector<ContactPair>& pairs, const std::vector<std::size_t>& colliding,
