@@ -48,6 +48,7 @@ add_service_files(FILES
   ComputeCartesianPath.srv
   ComputeFk.srv
   ComputeIk.srv
+  ExcludeFromSensors.srv
   GetPlanningScene.srv
   GetReport.srv
   PlanMotion.srv

@@ -21,10 +21,11 @@
 #include "node/parameters/setup.h"
 #include "node/planning/plan_service.h"
 #include "node/scene/base_from_tf.h"
-#include "node/scene/cloud_topic.h"
 #include "node/scene/frame_lookup.h"
 #include "node/scene/scene_publisher.h"
 #include "node/scene/scene_topics.h"
+#include "node/sensors/cloud_topic.h"
+#include "node/sensors/sensors.h"
 #include "node/shutdown_call.h"
 #include "node/shutdown_deadline.h"
 #include "node/watch/trajectory_watcher.h"
@@ -63,6 +64,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   std::vector<std::string> warnings;
   SceneDefaults defaults;
   PlanningScene scene = sceneFromParameters(node, own, defaults, &warnings);
+  const SensorsOptions sensors_options = sensorsFromParameters(node, own, scene.robot->planningFrame(), warnings);
   warn(warnings);
   const std::uint64_t setup = setupFromParameters(node, *scene.robot, defaults);
 
@@ -141,10 +143,21 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   watcher_options.motions.max_checks = options.max_motion_checks;
   TrajectoryWatcher watcher(node, own, store, make_cpu_checker, inspector_of, require_scene, watcher_options);
 
+  std::optional<Sensors> sensors;
+  if (!sensors_options.sensors.empty())
+    sensors.emplace(node, own, store, look_up, memory, diagnostics, sensors_options);
+
   Endpoints change_requests(node, own, 3, diagnostics, require_own_scene);
   change_requests.advertise<ApplyPlanningScene>(
       "apply_planning_scene", [&](const ApplyPlanningScene::Request& r) { return changes.apply(r); });
   change_requests.advertise<Clear>("clear", [&](const Clear::Request&) { return changes.clear(); });
+  if (sensors)
+  {
+    change_requests.advertise<Clear>(
+        "clear_octomap", [&](const Clear::Request&) { return sensors->clear(); });
+    change_requests.advertise<ExcludeFromSensors>(
+        "exclude_from_sensors", [&](const ExcludeFromSensors::Request& r) { return sensors->exclude(r); });
+  }
   Endpoints scene_requests(node, own, 3, diagnostics, require_scene);
   scene_requests.advertise<GetPlanningScene>(
       "get_planning_scene", [&](const GetPlanningScene::Request& r) { return changes.get(r); });
@@ -210,6 +223,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   for (Endpoints* some : endpoints)
     some->close();
   scene_topics.close();
+  if (sensors)
+    sensors->close();
   moveit.close();
   checks.stop();
   plans.stop();
@@ -217,6 +232,8 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   watcher.stop();
   server.stop();
   scene_topics.stop();
+  if (sensors)
+    sensors->stop();
   moveit.stop();
   if (leader)
     leader->stop();

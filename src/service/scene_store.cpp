@@ -11,6 +11,7 @@
 #include "gpu_planning_scene/octomap.h"
 #include "model/virtual_joint.h"
 #include "scene/changes/matrix_entries.h"
+#include "service/sensed_octomap.h"
 #include "service/service_errors.h"
 
 namespace gpu_planning_scene::core
@@ -187,6 +188,11 @@ AssumedBase SceneStore::assumeBase(std::int64_t stamp, const std::vector<bool>& 
 
 SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& lookup)
 {
+  return make(change, lookup, octomap_is_sensed_);
+}
+
+SceneStore::Applied SceneStore::make(const SceneChange& change, const Lookup& lookup, bool keeps_octomap)
+{
   ExternalFrames frames;
   for (;;)
   {
@@ -200,7 +206,8 @@ SceneStore::Applied SceneStore::apply(const SceneChange& change, const Lookup& l
     if (at.scene != asked && !hasAll(frames, externalFrames(*at.scene, change)))
       continue;
     ChangedScene made =
-        applyChange(*at.scene, startingState(at, change.state.variables), change, defaults_, limits_, frames);
+        applyChange(*at.scene, startingState(at, change.state.variables),
+                    keeps_octomap ? keepingOctomap(change, *at.scene) : change, defaults_, limits_, frames);
     return {replace(std::move(made.scene), change.state.variables, at.scene->revision + 1), std::move(made.warnings)};
   }
 }
@@ -247,7 +254,10 @@ SceneStore::Applied SceneStore::clear()
     forget(object.id);
   for (const AttachedObject& attached : scene.attached)
     forget(attached.object.id);
-  scene.objects.clear();
+  scene.objects.erase(
+      std::remove_if(scene.objects.begin(), scene.objects.end(),
+                     [this](const WorldObject& object) { return !octomap_is_sensed_ || object.id != kOctomapId; }),
+      scene.objects.end());
   scene.attached.clear();
   scene.colors.clear();
   const std::uint64_t revision = scene.revision + 1;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -86,6 +87,12 @@ class SceneStore
   /// nothing has changed.
   Applied apply(const SceneChange& change, const Lookup& lookup);
 
+  /// From now on, only sense() changes the octomap of the scene: apply() refuses a change that brings an octomap, and
+  /// leaves the octomap in the scene otherwise, as clear() does.
+  void reserveOctomap() { octomap_is_sensed_ = true; }
+  /// As apply(), for a change by sensors, which needs no frames.
+  Applied sense(const SceneChange& change) { return make(change, {}, false); }
+
   struct Preview
   {
     Snapshot snapshot;  ///< its scene has the revision of the store's scene
@@ -110,8 +117,8 @@ class SceneStore
   void forgetReplaced(std::chrono::steady_clock::time_point time);
 
   /// Removes all objects and attached objects with their entries in the allowed collision matrix, and all colours. The
-  /// entries of the octomap stay. Warns if a removed entry forbade a contact that the default of the other body allows
-  /// with a new object of that name.
+  /// entries of the octomap stay. (After reserveOctomap(), the octomap stays too.) Warns if a removed entry forbade a
+  /// contact that the default of the other body allows with a new object of that name.
   Applied clear();
 
   /// Sets the robot's variables, by name; names that the robot lacks are ignored. The revision stays the same. If a
@@ -140,6 +147,7 @@ class SceneStore
     std::size_t shapes;
   };
 
+  Applied make(const SceneChange& change, const Lookup& lookup, bool keeps_octomap);
   std::uint64_t replace(PlanningScene scene, const std::map<std::string, double>& variables, std::uint64_t revision);
   void keep(const std::shared_ptr<const PlanningScene>& replaced);
   AssumedBase assumeBase(std::int64_t stamp, const std::vector<bool>& known, std::vector<double>& state) const;
@@ -155,6 +163,7 @@ class SceneStore
   mutable std::deque<Replaced> replaced_;  // in the order of their times
   std::size_t replaced_shapes_ = 0;
   mutable std::condition_variable arrived_;
+  std::atomic<bool> octomap_is_sensed_{false};
   const SceneDefaults defaults_;
   const SceneLimits limits_;
   const BaseSource base_source_;

@@ -11,6 +11,7 @@
 #include "fuzz/fuzz_target.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/octomap.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
 #include "node/checks/check_services.h"
 #include "node/endpoints/bounded_message.h"
@@ -19,11 +20,13 @@
 #include "node/messages/exact_numbers.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/requested_timing.h"
+#include "node/messages/sensor_messages.h"
 #include "node/messages/to_messages.h"
 #include "node/planning/plan_request.h"
 #include "node/planning/requested_goals.h"
-#include "node/scene/cloud_topic.h"
 #include "node/scene/scene_services.h"
+#include "node/sensors/cloud_topic.h"
+#include "node/sensors/sensed_object.h"
 #include "scene/slider_robot.h"
 
 namespace gpu_planning_scene::core
@@ -88,6 +91,13 @@ GroupPlanners plannersOf(const std::string& group)
   return planners;
 }
 
+OccupancyMapOptions smallMap()
+{
+  OccupancyMapOptions options;
+  options.max_voxels = fewVoxels().max_voxels;
+  return options;
+}
+
 /// Replaces tf. It knows one frame.
 Eigen::Isometry3d frameOfTf(const StampedFrame& frame)
 {
@@ -109,7 +119,8 @@ class Handlers
           fewStates()),
       checks_(store_, server_, memory_, fewChecks(), {frameOfTf}),
       scenes_(store_, frameOfTf, memory_),
-      clouds_(store_, frameOfTf, memory_, fewVoxels(), "cloud")
+      clouds_(store_, frameOfTf, memory_, fewVoxels(), "cloud"),
+      map_(smallMap())
   {
     store_.setListener(
         this,
@@ -125,7 +136,7 @@ class Handlers
   void take(unsigned kind, const std::uint8_t* data, std::uint32_t size)
   {
     const auto make = [this](const auto& message) { scenes_.make(scenes_.changeOf(message), frameOfTf); };
-    switch (kind % 15)
+    switch (kind % 17)
     {
       case 0:
         return answer<ApplyPlanningScene>(data, size, [&](const auto& request) { return scenes_.apply(request); });
@@ -155,6 +166,10 @@ class Handlers
         return read<PlanMotion::Request>(data, size, [&](const auto& request) { plan(request); });
       case 13:
         return read<PlanningSceneMessage>(data, size, [&](const auto& message) { follow(message); });
+      case 15:
+        return read<sensor_msgs::CameraInfo>(data, size, [&](const auto& message) { camera_ = cameraOf(message); });
+      case 16:
+        return read<sensor_msgs::Image>(data, size, [&](const auto& message) { see(message); });
       default:
         return answer<CheckTrajectory>(data, size,
                                        [&](const auto& request) { return checks_.checkTrajectory(request); });
@@ -279,12 +294,22 @@ class Handlers
     std::abort();
   }
 
+  /// What Sensors does with an image, on this thread.
+  void see(const sensor_msgs::Image& message)
+  {
+    const Snapshot now = store_.snapshot();
+    map_.add(depthImageOf(message, camera_), {}, *now.scene, now.state.data());
+    replaceObject(store_, kOctomapId, map_.cubes(*now.scene, now.state.data()));
+  }
+
   SceneStore store_;
   const MemoryGuard memory_;
   CheckServer server_;
   CheckServices checks_;
   SceneServices scenes_;
   CloudTopic clouds_;
+  PinholeCamera camera_;
+  OccupancyMap map_;
 };
 }  // namespace
 }  // namespace gpu_planning_scene::core

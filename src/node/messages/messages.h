@@ -16,6 +16,7 @@
 #include <gpu_planning_scene/ComputeIk.h>
 #include <gpu_planning_scene/Constraints.h>
 #include <gpu_planning_scene/ContactInformation.h>
+#include <gpu_planning_scene/ExcludeFromSensors.h>
 #include <gpu_planning_scene/GetPlanningScene.h>
 #include <gpu_planning_scene/GetReport.h>
 #include <gpu_planning_scene/NearestPair.h>

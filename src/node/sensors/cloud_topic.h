@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include <sensor_msgs/PointCloud2.h>
 
@@ -11,10 +10,6 @@
 
 namespace gpu_planning_scene::core
 {
-/// The points of a cloud, from its FLOAT32 fields x, y and z. Throws Error if a field is missing, if the cloud is
-/// big-endian, or if its sizes do not fit together.
-std::vector<Eigen::Vector3f> pointsOf(const sensor_msgs::PointCloud2& message);
-
 /// Turns each point cloud into a world object, which replaces the object of the previous cloud. Not thread-safe.
 class CloudTopic
 {

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "gpu_planning_scene/planning_scene.h"
+
+namespace gpu_planning_scene::core
+{
+/// A pinhole camera without distortion, as in sensor_msgs/CameraInfo. All lengths are pixels. The center of the first
+/// pixel is at (0, 0).
+struct PinholeCamera
+{
+  int width = 0;
+  int height = 0;
+  double fx = 0.0;  ///< focal lengths
+  double fy = 0.0;
+  double cx = 0.0;  ///< the principal point
+  double cy = 0.0;
+};
+
+/// A depth image, as REP 118 defines it: metres along the optical axis, row by row. NaN or 0: not measured. Infinity:
+/// the ray meets nothing within the sensor's range. Negative (also infinite): something is too close to be measured.
+/// Frame: x to the right, y down, z forward (REP 103).
+struct DepthImage
+{
+  PinholeCamera camera;
+  std::vector<float> depths;
+};
+
+/// The circumstances of a measurement.
+struct SensorView
+{
+  Eigen::Isometry3d sensor = Eigen::Isometry3d::Identity();  ///< pose of the sensor's frame in the planning frame
+  double time = 0.0;                                         ///< seconds; only differences count
+  /// Metres: along the optical axis for images, from the sensor for clouds. Nearer points are not used. Rays count up
+  /// to the maximum, and points behind it are not used.
+  double min_range = 0.0;
+  double max_range = 10.0;
+  /// Metres: points in voxels up to this distance from the robot or a left-out object may be points of its surface.
+  /// They are not used.
+  double padding = 0.03;
+};
+
+struct OccupancyMapOptions
+{
+  double resolution = 0.05;  ///< metres: edge length of a voxel
+  /// In the planning frame. Points outside are not used. The default is everything.
+  Eigen::AlignedBox3d region = {Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity()),
+                                Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity())};
+  /// Seconds: a voxel that no point has hit for so long is removed, also where no sensor looks. 0: never.
+  double decay = 0.0;
+  std::size_t max_voxels = 200'000;  ///< a measurement that would lead to more is refused
+};
+
+/// The voxels that depth cameras and laser scanners have found occupied. Free space is not stored, because the scene
+/// does not need it.
+///
+/// A measured point occupies its voxel at once. A voxel is removed after as many measurements that see through it as it
+/// has lately been hit, three at most: then a sensor has measured what is behind it, and nothing in it (see DepthView).
+/// So a voxel that no sensor sees stays, for example one that the robot hides.
+///
+/// The robot, its attached objects, and objects that the caller names are left out by their exact geometry: see
+/// SensorView::padding and cubes(). Voxels that were occupied before the robot came near them stay.
+///
+/// This is the evidence of A. Hornung, K. M. Wurm, M. Bennewitz, C. Stachniss, W. Burgard: OctoMap. Autonomous Robots,
+/// 2013, with a bound of three measurements. Rays are not followed through voxels, as they are there: voxels are
+/// compared with the image. Not thread-safe.
+class OccupancyMap
+{
+ public:
+  /// Throws Error for an option that is not valid.
+  explicit OccupancyMap(const OccupancyMapOptions& options);
+  ~OccupancyMap();
+
+  /// Takes a measurement. `state`: one value per variable, of the time of the measurement. `left_out`: ids of objects
+  /// of the world that are known exactly, for example a part that is to be grasped. Their points are not used, and
+  /// voxels within SensorView::padding of them are removed. The same happens once to an object when it has been
+  /// attached. Throws Error if an argument is not valid, if there would be too many voxels, or if a point is too far
+  /// away for the size of the voxels. If it throws, nothing has changed.
+  void add(const DepthImage& image, const SensorView& view, const PlanningScene& scene, const double* state,
+           const std::set<std::string>& left_out = {});
+  /// `points`: metres, in the sensor's frame. Points that are not finite are not measured.
+  void add(const std::vector<Eigen::Vector3f>& points, const SensorView& view, const PlanningScene& scene,
+           const double* state, const std::set<std::string>& left_out = {});
+
+  /// Removes the voxels whose distance from one of these objects is at most `padding` (metres). Errors: as for add().
+  void removeNear(const std::set<std::string>& objects, double padding, const PlanningScene& scene,
+                  const double* state);
+
+  /// The occupied voxels as cubes in the planning frame, without cubes that touch the robot or its attached objects in
+  /// `state`.
+  std::vector<PlacedShape> cubes(const PlanningScene& scene, const double* state);
+
+  /// The number of occupied voxels.
+  std::size_t size() const;
+  void clear();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+}  // namespace gpu_planning_scene::core

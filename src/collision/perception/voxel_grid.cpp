@@ -1,0 +1,57 @@
+#include "collision/perception/voxel_grid.h"
+
+#include <algorithm>
+#include <string>
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Vector3d;
+
+constexpr int kIndexBits = 21;
+constexpr std::int64_t kMaxIndex = (std::int64_t{1} << (kIndexBits - 1)) - 1;
+}  // namespace
+
+std::uint64_t VoxelGrid::keyOf(const Vector3d& point) const
+{
+  const Vector3d index = (point / size_).array().floor();
+  if (!(index.cwiseAbs().maxCoeff() <= static_cast<double>(kMaxIndex)))
+    throw Error("a measured point is more than " + std::to_string(kMaxIndex) +
+                " voxels from the planning frame's origin; use larger voxels or a nearer planning frame");
+  std::uint64_t key = 0;
+  for (const int axis : {2, 1, 0})
+    key = key << kIndexBits | static_cast<std::uint64_t>(static_cast<std::int64_t>(index[axis]) + kMaxIndex);
+  return key;
+}
+
+Vector3d VoxelGrid::centerOf(std::uint64_t key) const
+{
+  Vector3d center;
+  for (const int axis : {0, 1, 2})
+  {
+    const auto index =
+        static_cast<std::int64_t>(key >> (axis * kIndexBits) & ((std::uint64_t{1} << kIndexBits) - 1)) - kMaxIndex;
+    center[axis] = (static_cast<double>(index) + 0.5) * size_;
+  }
+  return center;
+}
+
+std::vector<PlacedShape> VoxelGrid::cubesAt(const std::vector<Vector3d>& centers) const
+{
+  const Shape cube = Box{Vector3d::Constant(size_)};
+  std::vector<PlacedShape> cubes;
+  cubes.reserve(centers.size());
+  for (const Vector3d& center : centers)
+    cubes.push_back({cube, Eigen::Isometry3d(Eigen::Translation3d(center))});
+  return cubes;
+}
+
+void sortOnce(std::vector<std::uint64_t>& keys)
+{
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+}
+}  // namespace gpu_planning_scene::core

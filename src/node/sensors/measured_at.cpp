@@ -1,0 +1,20 @@
+#include "node/sensors/measured_at.h"
+
+#include "gpu_planning_scene/error.h"
+
+namespace gpu_planning_scene::core
+{
+MeasuredAt measuredAt(const std_msgs::Header& header, const SceneStore& store, const SceneStore::Lookup& lookup)
+{
+  MeasuredAt measured;
+  measured.now = store.snapshot();
+  if (!measured.now.allKnown())
+    throw Error(
+        "the robot's state is not known yet, so points on the robot cannot be removed; publish joint_states first");
+  const StampedFrame frame{header.frame_id, static_cast<std::int64_t>(header.stamp.toNSec())};
+  measured.state = store.stateAt(frame.stamp);
+  const std::optional<Eigen::Isometry3d> known = measured.now.scene->frame(frame.name, measured.state.data());
+  measured.sensor = known ? *known : lookup(frame);
+  return measured;
+}
+}  // namespace gpu_planning_scene::core

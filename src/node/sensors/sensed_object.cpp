@@ -1,0 +1,41 @@
+#include "node/sensors/sensed_object.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "node/endpoints/topic_warnings.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+bool isSameCube(const PlacedShape& a, const PlacedShape& b)
+{
+  return a.pose.matrix() == b.pose.matrix() && std::get<Box>(a.shape).size == std::get<Box>(b.shape).size;
+}
+}  // namespace
+
+void replaceObject(SceneStore& store, const std::string& id, std::vector<PlacedShape> cubes)
+{
+  const std::shared_ptr<const PlanningScene> scene = store.snapshot().scene;
+  const auto old = std::find_if(scene->objects.begin(), scene->objects.end(),
+                                [&id](const WorldObject& object) { return object.id == id; });
+  const bool is_there = old != scene->objects.end();
+  if (is_there ? std::equal(old->shapes.begin(), old->shapes.end(), cubes.begin(), cubes.end(), isSameCube)
+               : cubes.empty())
+    return;
+  ObjectChange change;
+  change.id = id;
+  change.pose = Eigen::Isometry3d::Identity();
+  if (cubes.empty())
+  {
+    change.operation = Operation::Remove;
+    change.keeps_allowed_collisions = true;  // for the next measurement, whose object has the same id
+  }
+  change.shapes = std::move(cubes);
+  SceneChange diff;
+  diff.is_diff = true;
+  diff.objects.push_back(std::move(change));
+  warnOfMessage(store.sense(diff).warnings);
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <thread>
+#include <variant>
+#include <vector>
+
+#include "node/endpoints/endpoints.h"
+#include "node/messages/messages.h"
+#include "node/messages/sensor_messages.h"
+#include "node/sensors/sensor_options.h"
+#include "service/memory_guard.h"
+#include "service/scene_store.h"
+
+namespace gpu_planning_scene::core
+{
+/// Keeps the octomap of the scene (kOctomapId) from the measurements of depth cameras and scanners. One thread takes
+/// the newest measurement of each sensor in turn, beside the checks. A measurement that a newer one replaces before its
+/// turn is dropped and counted. Thread-safe.
+class Sensors
+{
+ public:
+  /// Subscribes to the topics of the sensors, and reserves the octomap (SceneStore::reserveOctomap). All arguments
+  /// passed by reference must outlive this object. Throws Error if the scene already has an octomap.
+  Sensors(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneStore& store, SceneStore::Lookup lookup,
+          const MemoryGuard& memory, Diagnostics& diagnostics, const SensorsOptions& options);
+  /// Calls stop().
+  ~Sensors();
+
+  /// Both throw nothing: the response has the error.
+  ExcludeFromSensors::Response exclude(const ExcludeFromSensors::Request& request);
+  /// Forgets all voxels.
+  Clear::Response clear();
+
+  /// A status for each sensor: WARN if it has not sent a measurement for a second.
+  std::vector<diagnostic_msgs::DiagnosticStatus> statuses();
+
+  /// From now on, measurements are rejected.
+  void close() { topics_.close(); }
+  /// Calls close(), and finishes the current measurement.
+  void stop();
+
+ private:
+  using Message = std::variant<sensor_msgs::Image, sensor_msgs::PointCloud2>;
+
+  /// A sensor, guarded by waiting_mutex_.
+  struct Sensor
+  {
+    SensorOptions options;
+    std::optional<PinholeCamera> camera;  // of images
+    std::optional<Message> waiting;
+    ros::Time newest;        // stamp of the newest measurement that max_rate lets through
+    ros::WallTime received;  // zero: none
+    std::uint64_t used = 0;
+    std::uint64_t dropped = 0;
+    std::uint64_t refused = 0;
+    double lag = 0.0;          // seconds from the stamp of the last measurement to the scene with it
+    double longest_lag = 0.0;  // since the last status
+  };
+
+  void receive(Sensor& sensor, Message message);
+  void run();
+  void use(const SensorOptions& options, const std::optional<PinholeCamera>& camera, const Message& message);
+  std::uint64_t publish();
+
+  SceneStore& store_;
+  const SceneStore::Lookup lookup_;
+  const MemoryGuard& memory_;
+
+  std::mutex map_mutex_;  // guards map_ and excluded_
+  OccupancyMap map_;
+  std::set<std::string> excluded_;
+
+  std::mutex waiting_mutex_;
+  std::condition_variable arrived_;
+  std::vector<std::unique_ptr<Sensor>> sensors_;
+  bool stopping_ = false;
+
+  Endpoints topics_;
+  ros::Publisher diagnostics_publisher_;
+  ros::WallTimer diagnostics_timer_;
+  std::thread thread_;
+};
+}  // namespace gpu_planning_scene::core

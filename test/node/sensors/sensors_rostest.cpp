@@ -1,0 +1,288 @@
+// ~sensors: depth images and clouds become the octomap of the scene, without the robot and without excluded objects.
+
+#include <cstring>
+#include <limits>
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/PointCloud2.h>
+
+#include "gpu_planning_scene/octomap.h"
+#include "node/node_client.h"
+#include "support/depth_camera.h"
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using Eigen::Vector3d;
+
+const PinholeCamera kCamera{160, 120, 140.0, 140.0, 79.5, 59.5};
+
+/// A depth camera and a scanner beside the robot.
+class SensorsOfANode : public RunningNode
+{
+ public:
+  /// The arm is stretched out in front of the camera.
+  static void SetUpTestSuite()
+  {
+    RunningNode::SetUpTestSuite();
+    free_state = {-0.75, 0.5, 0.5, 0.0, 0.3, 0.0, 0.0};
+    free_state.resize(robot->variables().size(), 0.0);
+  }
+
+  SensorsOfANode()
+    : images_(node_.advertise<sensor_msgs::Image>("/camera/depth/image_rect", 1)),
+      infos_(node_.advertise<sensor_msgs::CameraInfo>("/camera/depth/camera_info", 1, true)),
+      clouds_(node_.advertise<sensor_msgs::PointCloud2>("/scanner/points", 1)),
+      statuses_(node_.subscribe<diagnostic_msgs::DiagnosticArray>(
+          "/diagnostics", 10, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) { take(*message); }))
+  {
+    sensor_msgs::CameraInfo info;
+    info.width = static_cast<std::uint32_t>(kCamera.width);
+    info.height = static_cast<std::uint32_t>(kCamera.height);
+    info.K = {{kCamera.fx, 0.0, kCamera.cx, 0.0, kCamera.fy, kCamera.cy, 0.0, 0.0, 1.0}};
+    infos_.publish(info);
+  }
+
+  void SetUp() override
+  {
+    RunningNode::SetUp();
+    EXPECT_TRUE(call<Clear>("clear_octomap", {}).success);
+    look(tipPoint() + Vector3d(1.0, -0.8, 0.9), tipPoint());
+    truth_ = std::make_unique<PlanningScene>(robot);
+    ASSERT_TRUE(becomes([this] { return images_.getNumSubscribers() > 0 && clouds_.getNumSubscribers() > 0; }));
+  }
+
+  /// Places the camera. The scanner stays.
+  void look(const Vector3d& from, const Vector3d& at)
+  {
+    camera_ = cameraPose(from, at);
+    PlanningSceneMessage frames = diffScene();
+    for (const char* frame : {"camera", "scanner"})
+    {
+      frames.fixed_frame_transforms.emplace_back();
+      frames.fixed_frame_transforms.back().header.frame_id = robot->planningFrame();
+      frames.fixed_frame_transforms.back().child_frame_id = frame;
+      const geometry_msgs::Pose pose =
+          poseAt(std::string(frame) == "camera" ? camera_ : Eigen::Isometry3d(Eigen::Translation3d(3.0, 3.0, 1.0)));
+      frames.fixed_frame_transforms.back().transform.translation.x = pose.position.x;
+      frames.fixed_frame_transforms.back().transform.translation.y = pose.position.y;
+      frames.fixed_frame_transforms.back().transform.translation.z = pose.position.z;
+      frames.fixed_frame_transforms.back().transform.rotation = pose.orientation;
+    }
+    apply(frames);
+  }
+
+  void see()
+  {
+    const DepthImage seen = depthImageOf(*truth_, free_state.data(), kCamera, camera_);
+    sensor_msgs::Image image;
+    image.header.frame_id = "camera";
+    image.header.stamp = ros::Time::now();
+    image.width = static_cast<std::uint32_t>(kCamera.width);
+    image.height = static_cast<std::uint32_t>(kCamera.height);
+    image.encoding = encoding_;
+    if (encoding_ == "32FC1")
+    {
+      image.step = image.width * sizeof(float);
+      image.data.resize(seen.depths.size() * sizeof(float));
+      std::memcpy(image.data.data(), seen.depths.data(), image.data.size());
+    }
+    else
+    {
+      image.step = image.width * sizeof(std::uint16_t);
+      image.data.resize(seen.depths.size() * sizeof(std::uint16_t));
+      for (std::size_t i = 0; i < seen.depths.size(); ++i)
+      {
+        const float depth = seen.depths[i];
+        const std::uint16_t pixel = std::isfinite(depth) ? static_cast<std::uint16_t>(1000.0F * depth) : 0;
+        std::memcpy(image.data.data() + i * sizeof(pixel), &pixel, sizeof(pixel));
+      }
+    }
+    images_.publish(image);
+  }
+
+  /// Whether the camera's images lead to the condition.
+  template <class Condition>
+  bool seesUntil(const Condition& condition)
+  {
+    return becomes(
+        [&]
+        {
+          see();
+          return condition();
+        });
+  }
+
+  void addToTruth(const std::string& id, const Vector3d& center, double size)
+  {
+    truth_->objects.push_back({id, Eigen::Isometry3d(Eigen::Translation3d(center)), {{Box{Vector3d::Constant(size)}}}});
+  }
+
+  static std::vector<PlacedShape> octomap()
+  {
+    const OctomapWithPose map = scene().world.octomap;
+    return occupiedLeaves({map.octomap.id, map.octomap.binary != 0, map.octomap.resolution, map.octomap.data}, 1000000);
+  }
+
+  /// The number of voxels whose centers are at most `distance` from a point.
+  static std::size_t voxelsNear(const Vector3d& point, double distance)
+  {
+    std::size_t count = 0;
+    for (const PlacedShape& cube : octomap())
+      count += (cube.pose.translation() - point).cwiseAbs().maxCoeff() <= distance ? 1 : 0;
+    return count;
+  }
+
+  /// A value in the status of a sensor; empty before the first status.
+  std::string statusOf(const std::string& topic, const std::string& key)
+  {
+    ros::spinOnce();
+    return values_[topic + " " + key];
+  }
+
+ protected:
+  void take(const diagnostic_msgs::DiagnosticArray& message)
+  {
+    for (const auto& status : message.status)
+      for (const auto& value : status.values)
+        values_[status.name.substr(status.name.rfind(' ') + 1) + " " + value.key] = value.value;
+  }
+
+  ros::NodeHandle node_;
+  ros::Publisher images_;
+  ros::Publisher infos_;
+  ros::Publisher clouds_;
+  ros::Subscriber statuses_;
+  std::map<std::string, std::string> values_;
+  std::unique_ptr<PlanningScene> truth_;
+  Eigen::Isometry3d camera_;
+  std::string encoding_ = "32FC1";
+};
+
+TEST_F(SensorsOfANode, ABoxBeforeTheCameraBlocksTheRobotUntilItIsGone)
+{
+  // The box stands where the tip is after a turn of the first joint. The camera sees the robot behind it.
+  std::vector<double> turned = free_state;
+  turned[0] += 1.2;
+  std::vector<Eigen::Isometry3d> poses(robot->links().size());
+  robot->linkPoses(turned.data(), poses.data());
+  const Vector3d there = poses[static_cast<std::size_t>(robot->linkIndex(tip))].translation();
+  const Vector3d outward = Vector3d(there.x(), there.y(), 0.0).normalized();
+  look(there + 1.2 * outward + Vector3d(0.0, 0.0, 0.5), there);
+  addToTruth("box", there, 0.2);
+  for (const char* encoding : {"32FC1", "16UC1"})
+  {
+    encoding_ = encoding;
+    EXPECT_NE(0, check(turned).valid.at(0));
+    EXPECT_TRUE(seesUntil([&] { return check(turned).valid.at(0) == 0; })) << encoding;
+    EXPECT_TRUE(isFree()) << collision() << ": the robot's own points are left out";
+    // Without a wall behind the box, 16UC1 has no depths there, and the camera sees through nothing.
+    const WorldObject box = truth_->objects[0];
+    truth_->objects.clear();
+    addToTruth("wall", there - 3.5 * outward, 4.0);
+    EXPECT_TRUE(seesUntil([&] { return check(turned).valid.at(0) != 0; })) << encoding;
+    truth_->objects = {box};
+    EXPECT_TRUE(call<Clear>("clear_octomap", {}).success);
+  }
+}
+
+TEST_F(SensorsOfANode, AnExcludedObjectHasNoVoxels)
+{
+  const Vector3d there = tipPoint() + Vector3d(0.0, 0.0, -0.35);
+  addToTruth("part", there, 0.12);
+  EXPECT_TRUE(seesUntil([&] { return voxelsNear(there, 0.09) > 0; }));
+  ExcludeFromSensors::Request request;
+  request.object_ids = {"part"};
+  const auto refused = call<ExcludeFromSensors>("exclude_from_sensors", request);
+  EXPECT_EQ(AnswerStatus::INVALID_REQUEST, refused.status);
+  EXPECT_NE(std::string::npos, refused.message.find("no object 'part'")) << refused.message;
+  apply(diffWith(boxObject("part", there, 0.12)));
+  EXPECT_GT(voxelsNear(there, 0.09), 0u);
+  const auto excluded = call<ExcludeFromSensors>("exclude_from_sensors", request);
+  EXPECT_TRUE(excluded.success) << excluded.message;
+  EXPECT_EQ(0u, voxelsNear(there, 0.09)) << "at once";
+  for (int i = 0; i < 5; ++i)
+  {
+    see();
+    ros::WallDuration(0.1).sleep();
+    EXPECT_EQ(0u, voxelsNear(there, 0.09));
+  }
+  EXPECT_TRUE(call<ExcludeFromSensors>("exclude_from_sensors", {}).success);
+  EXPECT_TRUE(seesUntil([&] { return voxelsNear(there, 0.09) > 0; })) << "an empty list ends the exclusion";
+}
+
+TEST_F(SensorsOfANode, NoMessageTakesTheirOctomapAway)
+{
+  const Vector3d there = tipPoint() + Vector3d(0.0, 0.0, -0.35);
+  addToTruth("box", there, 0.12);
+  EXPECT_TRUE(seesUntil([&] { return voxelsNear(there, 0.09) > 0; }));
+  const std::size_t voxels = octomap().size();
+  PlanningSceneMessage own = diffScene();
+  own.world.octomap = scene().world.octomap;
+  expectRefusal(own, "the octomap comes from this node's sensors");
+  PlanningSceneMessage remove = diffScene();
+  remove.world.octomap.octomap.id = "cleared";
+  apply(remove);
+  EXPECT_EQ(voxels, octomap().size());
+  PlanningSceneMessage full;
+  full.robot_state = stateMessage(free_state);
+  apply(full);
+  EXPECT_EQ(voxels, octomap().size());
+  EXPECT_TRUE(call<Clear>("clear", {}).success);
+  EXPECT_EQ(voxels, octomap().size());
+  EXPECT_TRUE(call<Clear>("clear_octomap", {}).success);
+  EXPECT_EQ(0u, octomap().size());
+}
+
+TEST_F(SensorsOfANode, CloudsOfAScannerAreInTheSameMap)
+{
+  sensor_msgs::PointCloud2 cloud;
+  cloud.header.frame_id = "scanner";
+  cloud.height = 1;
+  cloud.width = 1000;
+  cloud.point_step = 12;
+  cloud.row_step = 12000;
+  for (const char* axis : {"x", "y", "z"})
+  {
+    cloud.fields.emplace_back();
+    cloud.fields.back().name = axis;
+    cloud.fields.back().offset = static_cast<std::uint32_t>(4 * (cloud.fields.size() - 1));
+    cloud.fields.back().datatype = sensor_msgs::PointField::FLOAT32;
+  }
+  std::vector<float> points;
+  for (int i = 0; i < 1000; ++i)
+    points.insert(points.end(), {2.0F, 0.001F * static_cast<float>(i), 0.0F});
+  cloud.data.resize(12000);
+  std::memcpy(cloud.data.data(), points.data(), 12000);
+  EXPECT_TRUE(becomes(
+      [&]
+      {
+        cloud.header.stamp = ros::Time::now();
+        clouds_.publish(cloud);
+        return octomap().size() >= 25;
+      }));
+  EXPECT_GT(voxelsNear({5.0, 3.5, 1.0}, 0.06), 0u);
+  addToTruth("box", tipPoint() + Vector3d(0.0, 0.0, -0.35), 0.12);
+  EXPECT_TRUE(seesUntil([&] { return voxelsNear(tipPoint() + Vector3d(0.0, 0.0, -0.35), 0.09) > 0; }));
+  EXPECT_GT(voxelsNear({5.0, 3.5, 1.0}, 0.06), 0u);
+}
+
+TEST_F(SensorsOfANode, WrongMeasurementsAreCountedAndChangeNothing)
+{
+  const std::string topic = "/camera/depth/image_rect";
+  ASSERT_TRUE(becomes([&] { return !statusOf(topic, "refused").empty(); }));
+  const int before = std::stoi(statusOf(topic, "refused"));
+  const std::uint64_t revision = scene().scene_revision;
+  encoding_ = "rgb8";
+  EXPECT_TRUE(seesUntil([&] { return std::stoi(statusOf(topic, "refused")) > before; }));
+  EXPECT_EQ(revision, scene().scene_revision);
+  encoding_ = "32FC1";
+  const int used = std::stoi(statusOf(topic, "used"));
+  EXPECT_TRUE(seesUntil([&] { return std::stoi(statusOf(topic, "used")) > used; }));
+  EXPECT_LT(std::stod(statusOf(topic, "lag")), 1.0);
+}
+}  // namespace
+}  // namespace gpu_planning_scene::core
