@@ -62,7 +62,7 @@ struct OccupancyMapOptions
 /// The voxels that depth cameras and laser scanners have found occupied. Free space is not stored, because the scene
 /// does not need it.
 ///
-/// A measured point occupies its voxel at once. A voxel is removed after as many measurements that see through it as it
+/// A measured point occupies its voxel at once, unless the voxel's center is outside the image. A voxel is removed after as many measurements that see through it as it
 /// has lately been hit, three at most: then a sensor has measured what is behind it, and nothing in it (see DepthView).
 /// So a voxel that no sensor sees stays, for example one that the robot hides.
 ///

@@ -10,8 +10,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kMaxScenes = 20000;
-
 std::shared_ptr<const PlanningScene> changed(const PlanningScene& scene, const PlanningSceneMessage& message)
 {
   SceneChange sent = changeFrom(message, *scene.robot, {}, nullptr);
@@ -22,7 +20,8 @@ std::shared_ptr<const PlanningScene> changed(const PlanningScene& scene, const P
 }
 }  // namespace
 
-SceneHistory::SceneHistory(std::shared_ptr<const RobotModel> robot) : robot_(std::move(robot))
+SceneHistory::SceneHistory(std::shared_ptr<const RobotModel> robot, std::size_t max_scenes)
+  : robot_(std::move(robot)), max_scenes_(max_scenes)
 {
   subscriber_ = node_.subscribe<PlanningSceneMessage>(
       "/planning_scene/monitored_planning_scene_diffs", 100000,
@@ -54,7 +53,7 @@ void SceneHistory::follow(const PlanningSceneMessage& message)
   if (last->first != message.previous_revision)
     ++gaps_;
   scenes_[message.scene_revision] = changed(*last->second, message);
-  if (scenes_.size() > kMaxScenes)
+  if (scenes_.size() > max_scenes_)
     scenes_.erase(scenes_.begin());
   changed_.notify_all();
 }

@@ -16,7 +16,8 @@ namespace gpu_planning_scene::core
 class SceneHistory
 {
  public:
-  explicit SceneHistory(std::shared_ptr<const RobotModel> robot);
+  /// `max_scenes`: number of scenes that are kept.
+  explicit SceneHistory(std::shared_ptr<const RobotModel> robot, std::size_t max_scenes = 20000);
 
   /// Starts the history with `scene`, the node's current scene with the fields for followers. Call it once, after
   /// listens() is true.
@@ -32,6 +33,7 @@ class SceneHistory
   void follow(const PlanningSceneMessage& message);
 
   std::shared_ptr<const RobotModel> robot_;
+  const std::size_t max_scenes_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::uint64_t, std::shared_ptr<const PlanningScene>> scenes_;

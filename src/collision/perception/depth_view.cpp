@@ -48,15 +48,18 @@ DepthView::DepthView(const PinholeCamera& camera, std::vector<float> depths) : c
   }
 }
 
+bool DepthView::shows(const Eigen::Vector3d& point) const
+{
+  const double u = camera_.cx + camera_.fx * point.x() / point.z();
+  const double v = camera_.cy + camera_.fy * point.y() / point.z();
+  return point.z() > 0.0 && u >= -0.5 && u <= camera_.width - 0.5 && v >= -0.5 && v <= camera_.height - 0.5;
+}
+
 bool DepthView::seesBehind(const Eigen::Vector3d& center, double radius) const
 {
   const double near = center.z() - radius;
   const double far = center.z() + radius;
-  if (near <= 0.0)
-    return false;
-  const double u = camera_.cx + camera_.fx * center.x() / center.z();
-  const double v = camera_.cy + camera_.fy * center.y() / center.z();
-  if (!(u >= -0.5 && u <= camera_.width - 0.5 && v >= -0.5 && v <= camera_.height - 0.5))
+  if (near <= 0.0 || !shows(center))
     return false;
   const PixelRange columns =
       pixelsOf(center.x() - radius, center.x() + radius, near, far, camera_.fx, camera_.cx, camera_.width);

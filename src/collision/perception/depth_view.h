@@ -17,8 +17,11 @@ class DepthView
   /// `depths`: metres along the optical axis, row by row. Infinity: no ray. 0: a ray that ends in front of everything.
   DepthView(const PinholeCamera& camera, std::vector<float> depths);
 
+  /// Whether a point is in front of the camera and in its image.
+  bool shows(const Eigen::Vector3d& point) const;
+
   /// Whether the camera sees what is behind a ball. `center`, `radius`: metres, in the camera's frame (x to the right,
-  /// y down, z forward). True if the ball's center is in the image, a ray is measured near the ball, and every measured
+  /// y down, z forward). True if the image shows the ball's center, a ray is measured near the ball, and every measured
   /// ray near it ends behind it. "Near" is the ball's bounding rectangle in the image, enlarged by a pixel. So a ball
   /// beside the silhouette of a nearer surface is not seen through, nor is a ball on a surface that the camera sees at
   /// a grazing angle.

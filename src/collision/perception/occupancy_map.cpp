@@ -45,7 +45,7 @@ struct OccupancyMap::Impl
 
   void add(const Measurement& measurement, const SensorView& view, const PlanningScene& scene, const double* state,
            const std::set<std::string>& left_out);
-  std::vector<Voxel> hitVoxels(const std::vector<Vector3d>& points, const Isometry3d& sensor, double time) const;
+  std::vector<Voxel> hitVoxels(const Measurement& measurement, const Isometry3d& sensor, double time) const;
   std::vector<Voxel> merged(const std::vector<Voxel>& hits, const std::vector<PlacedView>& views,
                             const Isometry3d& sensor, double time) const;
   std::vector<Vector3d> centersOf(const std::vector<Voxel>& some) const;
@@ -66,25 +66,27 @@ std::vector<Vector3d> OccupancyMap::Impl::centersOf(const std::vector<Voxel>& so
   return centers;
 }
 
-/// The voxels that contain a point of the region, in ascending order of their keys, each once.
-std::vector<Voxel> OccupancyMap::Impl::hitVoxels(const std::vector<Vector3d>& points, const Isometry3d& sensor,
+/// The voxels that contain a point of the region and whose centers are in a view, in ascending order of their keys,
+/// each once. A voxel at the border of an image, with its center outside, could not be removed again.
+std::vector<Voxel> OccupancyMap::Impl::hitVoxels(const Measurement& measurement, const Isometry3d& sensor,
                                                  double time) const
 {
-  std::vector<std::uint64_t> keys;
-  for (const Vector3d& point : points)
+  VoxelKeys keys;
+  for (const Vector3d& point : measurement.points)
   {
     const Vector3d placed = sensor * point;
-    if (!options.region.contains(placed))
-      continue;
-    const std::uint64_t key = grid.keyOf(placed);
-    if (keys.empty() || keys.back() != key)  // neighbouring pixels are often in one voxel
-      keys.push_back(key);
+    if (options.region.contains(placed))
+      keys.add(grid.keyOf(placed));
   }
-  sortOnce(keys);
   std::vector<Voxel> hits;
-  hits.reserve(keys.size());
-  for (const std::uint64_t key : keys)
-    hits.push_back({key, time, 1});
+  const Isometry3d to_sensor = sensor.inverse();
+  for (const std::uint64_t key : keys.take())
+  {
+    const Vector3d center = to_sensor * grid.centerOf(key);
+    if (std::any_of(measurement.views.begin(), measurement.views.end(),
+                    [&](const PlacedView& placed) { return placed.depths.shows(placed.from_sensor * center); }))
+      hits.push_back({key, time, 1});
+  }
   return hits;
 }
 
@@ -139,7 +141,7 @@ void OccupancyMap::Impl::add(const Measurement& measurement, const SensorView& v
   const Isometry3d sensor = nearestRigid(view.sensor, "the sensor's pose");
   const auto near_bodies = [&](const std::vector<Voxel>& some)
   { return bodies.near(grid, centersOf(some), scene, state, view.padding, objects); };
-  std::vector<Voxel> hits = hitVoxels(measurement.points, sensor, view.time);
+  std::vector<Voxel> hits = hitVoxels(measurement, sensor, view.time);
   removeFlagged(hits, near_bodies(hits));
   std::vector<Voxel> all = merged(hits, measurement.views, sensor, view.time);
   if (!objects.empty())

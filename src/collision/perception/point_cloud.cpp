@@ -39,16 +39,14 @@ struct PointCloudFilter::Impl
 std::vector<std::uint64_t> PointCloudFilter::Impl::voxelsOf(const std::vector<Eigen::Vector3f>& points,
                                                             const Isometry3d& sensor) const
 {
-  std::vector<std::uint64_t> keys;
-  keys.reserve(points.size());
+  VoxelKeys keys;
   for (const Eigen::Vector3f& point : points)
   {
     const Vector3d local = point.cast<double>();
     if (local.allFinite() && local.norm() <= options.max_distance)
-      keys.push_back(grid.keyOf(sensor * local));
+      keys.add(grid.keyOf(sensor * local));
   }
-  sortOnce(keys);
-  return keys;
+  return keys.take();
 }
 
 PointCloudFilter::PointCloudFilter(const PointCloudOptions& options)

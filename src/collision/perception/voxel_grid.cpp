@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "gpu_planning_scene/error.h"
 
@@ -17,13 +18,13 @@ constexpr std::int64_t kMaxIndex = (std::int64_t{1} << (kIndexBits - 1)) - 1;
 
 std::uint64_t VoxelGrid::keyOf(const Vector3d& point) const
 {
-  const Vector3d index = (point / size_).array().floor();
-  if (!(index.cwiseAbs().maxCoeff() <= static_cast<double>(kMaxIndex)))
-    throw Error("a measured point is more than " + std::to_string(kMaxIndex) +
+  const Vector3d place = per_metre_ * point;
+  if (!(place.cwiseAbs().maxCoeff() <= static_cast<double>(kMaxIndex - 1)))
+    throw Error("a measured point is more than " + std::to_string(kMaxIndex - 1) +
                 " voxels from the planning frame's origin; use larger voxels or a nearer planning frame");
   std::uint64_t key = 0;
-  for (const int axis : {2, 1, 0})
-    key = key << kIndexBits | static_cast<std::uint64_t>(static_cast<std::int64_t>(index[axis]) + kMaxIndex);
+  for (const int axis : {2, 1, 0})  // with kMaxIndex added, the conversion to an integer rounds down
+    key = key << kIndexBits | static_cast<std::uint64_t>(place[axis] + static_cast<double>(kMaxIndex));
   return key;
 }
 
@@ -49,9 +50,10 @@ std::vector<PlacedShape> VoxelGrid::cubesAt(const std::vector<Vector3d>& centers
   return cubes;
 }
 
-void sortOnce(std::vector<std::uint64_t>& keys)
+std::vector<std::uint64_t> VoxelKeys::take()
 {
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  std::sort(keys_.begin(), keys_.end());
+  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+  return std::move(keys_);
 }
 }  // namespace gpu_planning_scene::core

@@ -16,7 +16,7 @@ class VoxelGrid
 {
  public:
   /// `size`: metres, above 0: edge length of a voxel.
-  explicit VoxelGrid(double size) : size_(size) {}
+  explicit VoxelGrid(double size) : size_(size), per_metre_(1.0 / size) {}
 
   double size() const { return size_; }
   /// The voxel that contains a point of the planning frame. Throws Error for a point that is too far from the origin.
@@ -27,8 +27,29 @@ class VoxelGrid
 
  private:
   double size_;
+  double per_metre_;
 };
 
-/// Sorts the keys, and removes all but one of equal keys.
-void sortOnce(std::vector<std::uint64_t>& keys);
+/// Collects keys, each once.
+class VoxelKeys
+{
+ public:
+  void add(std::uint64_t key)
+  {
+    std::uint64_t& last = lately_[(key * kHashFactor) >> (64 - kHashBits)];
+    if (last != key)
+      keys_.push_back(last = key);
+  }
+  /// The keys in ascending order.
+  std::vector<std::uint64_t> take();
+
+ private:
+  static constexpr int kHashBits = 14;
+  static constexpr std::uint64_t kHashFactor = 0x9E3779B97F4A7C15;  // 2^64 divided by the golden ratio (Knuth)
+  static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
+
+  // Many points are in the same voxels. Most of these are left out here, before the keys are sorted.
+  std::vector<std::uint64_t> lately_ = std::vector<std::uint64_t>(std::size_t{1} << kHashBits, kNoKey);
+  std::vector<std::uint64_t> keys_;
+};
 }  // namespace gpu_planning_scene::core
