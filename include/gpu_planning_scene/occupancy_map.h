@@ -62,9 +62,10 @@ struct OccupancyMapOptions
 /// The voxels that depth cameras and laser scanners have found occupied. Free space is not stored, because the scene
 /// does not need it.
 ///
-/// A measured point occupies its voxel at once, unless the voxel's center is outside the image. A voxel is removed after as many measurements that see through it as it
-/// has lately been hit, three at most: then a sensor has measured what is behind it, and nothing in it (see DepthView).
-/// So a voxel that no sensor sees stays, for example one that the robot hides.
+/// A measured point occupies its voxel at once, unless the voxel's center is outside the image. A voxel is removed
+/// after as many measurements that see through it as it has lately been hit, three at most: then a sensor has measured
+/// what is behind it, and nothing in it (see DepthView). So a voxel that no sensor sees stays, for example one that the
+/// robot hides.
 ///
 /// The robot, its attached objects, and objects that the caller names are left out by their exact geometry: see
 /// SensorView::padding and cubes(). Voxels that were occupied before the robot came near them stay.

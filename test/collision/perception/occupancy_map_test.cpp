@@ -265,6 +265,18 @@ TEST_F(OccupancyMapOfACamera, KeepsVoxelsThatItDoesNotSee)
   EXPECT_FALSE(isOccupied(map, {0.25, 0.05, 0.05})) << "nearer than the range";
 }
 
+TEST_F(OccupancyMapOfACamera, LosesAllVoxelsOfAThingThatLeavesTheImage)
+{
+  for (const float depth : {0.95F, 1.55F, 2.05F, 3.3F})
+  {
+    OccupancyMap map(options_);
+    see(map, depth, depth);  // the voxels at the border of the image too
+    EXPECT_GT(map.size(), 0u);
+    see(map, 20.0F, 20.0F);
+    EXPECT_EQ(0u, map.size()) << depth << " m";
+  }
+}
+
 TEST_F(OccupancyMapOfACamera, SeesAsFarAsItsRange)
 {
   OccupancyMap map(options_);
