@@ -64,8 +64,8 @@ struct OccupancyMapOptions
 ///
 /// A measured point occupies its voxel at once, unless the voxel's center is outside the image. A voxel is removed
 /// after as many measurements that see through it as it has lately been hit, three at most: then a sensor has measured
-/// what is behind it, and nothing in it (see DepthView). So a voxel that no sensor sees stays, for example one that the
-/// robot hides.
+/// what is behind it, and nothing in it (see DepthView). A voxel that no sensor sees stays, for example one that the
+/// robot hides. A measurement that comes late, by two seconds at most, removes no voxel that was hit at a later time.
 ///
 /// The robot, its attached objects, and objects that the caller names are left out by their exact geometry: see
 /// SensorView::padding and cubes(). Voxels that were occupied before the robot came near them stay.

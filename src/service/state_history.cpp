@@ -1,8 +1,11 @@
 #include "service/state_history.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <iterator>
 #include <string>
 
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core
@@ -32,16 +35,15 @@ const std::vector<double>* StateHistory::nearest(std::int64_t stamp) const
     return nullptr;
   const auto after = std::lower_bound(states_.begin(), states_.end(), stamp,
                                       [](const Stamped& state, std::int64_t value) { return state.stamp < value; });
-  if (after == states_.end())
-    return &states_.back().state;
-  if (after == states_.begin())
-  {
-    if (forgot_ && after->stamp != stamp)
-      throw Error("the robot's state of " + std::to_string((states_.back().stamp - stamp) / 1'000'000'000) +
-                  " s ago is not available; the last " + std::to_string(kKept / 1'000'000'000) + " s are kept");
-    return &after->state;
-  }
-  const auto before = std::prev(after);
-  return after->stamp - stamp < stamp - before->stamp ? &after->state : &before->state;
+  if (after == states_.begin() && forgot_ && after->stamp != stamp)
+    throw Error("the robot's state of " + std::to_string((states_.back().stamp - stamp) / 1'000'000'000) +
+                " s ago is not available; the last " + std::to_string(kKept / 1'000'000'000) + " s are kept");
+  auto nearest = after;
+  if (after == states_.end() || (after != states_.begin() && after->stamp - stamp >= stamp - std::prev(after)->stamp))
+    nearest = std::prev(after);
+  if (const std::int64_t difference = std::abs(nearest->stamp - stamp); difference > kNear)
+    throw Error("the nearest known state of the robot is " + numberText(1e-9 * static_cast<double>(difference)) +
+                " s away in time; publish joint_states at least every second, with the same clock");
+  return &nearest->state;
 }
 }  // namespace gpu_planning_scene::core

@@ -16,8 +16,10 @@ class StateHistory
   /// clock was set back), all other states are dropped.
   void add(std::int64_t stamp, const std::vector<double>& state);
 
-  /// The state whose stamp (nanoseconds) is nearest; null if there is none. Throws Error if `stamp` is before all kept
-  /// states and older states were dropped.
+  static constexpr std::int64_t kNear = 1'000'000'000;  ///< nanoseconds: the largest difference of nearest()
+
+  /// The state whose stamp (nanoseconds) is nearest; null if there is none. Throws Error if its stamp differs by more
+  /// than kNear, or if `stamp` is before all kept states and older states were dropped.
   const std::vector<double>* nearest(std::int64_t stamp) const;
 
  private:

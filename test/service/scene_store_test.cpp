@@ -318,17 +318,20 @@ TEST_F(Store, TheStateAtAStampIsTheNearestOfTheLastSeconds)
   store.updateState({{"slide", 0.5}}, 5 * kSecond);
   store.updateState({{"slide", 0.75}}, 6 * kSecond);
   store.updateState({{"slide", 0.625}}, 5 * kSecond + kSecond / 2);  // late
-  EXPECT_EQ(0.5, store.stateAt(1).at(0));
+  EXPECT_THROW(store.stateAt(1), Error) << "no state is near";
+  EXPECT_EQ(0.5, store.stateAt(4 * kSecond).at(0));
   EXPECT_EQ(0.5, store.stateAt(5 * kSecond).at(0));
   EXPECT_EQ(0.5, store.stateAt(5 * kSecond + kSecond / 5).at(0));
   EXPECT_EQ(0.625, store.stateAt(5 * kSecond + kSecond / 3).at(0));
   EXPECT_EQ(0.75, store.stateAt(7 * kSecond).at(0));
+  EXPECT_THROW(store.stateAt(7 * kSecond + 1), Error) << "joint_states have ended";
   EXPECT_EQ(store.snapshot().state, store.stateAt(0));
   store.updateState({{"slide", 1.0}}, 16 * kSecond);
-  EXPECT_EQ(0.75, store.stateAt(10 * kSecond).at(0));
+  EXPECT_EQ(0.75, store.stateAt(7 * kSecond).at(0));
+  EXPECT_THROW(store.stateAt(10 * kSecond), Error) << "in a gap of joint_states";
   EXPECT_THROW(store.stateAt(5 * kSecond), Error) << "older than what is kept";
   store.updateState({{"slide", 0.125}}, 2 * kSecond);  // the clock was set back, as in a simulation
-  EXPECT_EQ(0.125, store.stateAt(5 * kSecond).at(0));
+  EXPECT_EQ(0.125, store.stateAt(3 * kSecond).at(0));
 }
 
 TEST_F(Store, ATimeThatJumpsBackIsAWarningAndTheNewValueCounts)

@@ -24,6 +24,15 @@ using Eigen::Vector3f;
 // After so many measurements that see through it, a voxel is removed whatever its history.
 constexpr std::uint8_t kMaxEvidence = 3;
 
+// Seconds: a measurement may come so much later than those of other sensors. A larger difference is a clock that was
+// set back.
+constexpr double kMaxDelay = 2.0;
+
+bool isBefore(double time, double other)
+{
+  return time < other && other - time <= kMaxDelay;
+}
+
 struct Voxel
 {
   std::uint64_t key;
@@ -113,12 +122,12 @@ std::vector<Voxel> OccupancyMap::Impl::merged(const std::vector<Voxel>& hits, co
     if (hit != hits.end() && hit->key == voxel.key)
     {
       ++hit;
-      voxel.seen = std::max(voxel.seen, time);
+      voxel.seen = isBefore(time, voxel.seen) ? voxel.seen : time;
       voxel.evidence = std::min<std::uint8_t>(voxel.evidence + 1, kMaxEvidence);
     }
     else if (options.decay > 0.0 && time - voxel.seen > options.decay)
       continue;
-    else if (is_seen_through(voxel))
+    else if (!isBefore(time, voxel.seen) && is_seen_through(voxel))
       --voxel.evidence;
     if (voxel.evidence > 0)
       all.push_back(voxel);

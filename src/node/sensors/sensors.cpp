@@ -1,6 +1,7 @@
 #include "node/sensors/sensors.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -18,6 +19,7 @@ namespace
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kLongestSilence = 1.0;  // seconds
+constexpr std::chrono::milliseconds kRepublished{100};
 
 bool isInWorld(const PlanningScene& scene, const std::string& id)
 {
@@ -139,9 +141,16 @@ void Sensors::run()
         }
       return stopping_ || sensor != nullptr;
     };
-    arrived_.wait(lock, find);
+    const bool has_arrived = arrived_.wait_for(lock, kRepublished, find);
     if (stopping_)
       return;
+    if (!has_arrived)
+    {
+      lock.unlock();
+      republish();
+      lock.lock();
+      continue;
+    }
     const Message message = *std::exchange(sensor->waiting, std::nullopt);
     const std::optional<PinholeCamera> camera = sensor->camera;
     lock.unlock();
@@ -188,8 +197,20 @@ void Sensors::use(const SensorOptions& options, const std::optional<PinholeCamer
 std::uint64_t Sensors::publish()
 {
   const Snapshot now = store_.snapshot();
-  replaceObject(store_, kOctomapId, map_.cubes(*now.scene, now.state.data()));
+  std::vector<PlacedShape> cubes = map_.cubes(*now.scene, now.state.data());
+  hides_voxels_ = cubes.size() < map_.size();
+  replaceObject(store_, kOctomapId, std::move(cubes));
   return store_.snapshot().scene->revision;
+}
+
+/// The robot may have left voxels that are hidden because it touched them, while no measurement comes.
+void Sensors::republish()
+{
+  const std::lock_guard<std::mutex> lock(map_mutex_);
+  if (!hides_voxels_)
+    return;
+  if (const std::string error = errorOf([this] { publish(); }); !error.empty())
+    ROS_ERROR_STREAM_THROTTLE(10.0, "the octomap of the sensors stays as it is: " << error);
 }
 
 ExcludeFromSensors::Response Sensors::exclude(const ExcludeFromSensors::Request& request)

@@ -68,14 +68,16 @@ class Sensors
   void run();
   void use(const SensorOptions& options, const std::optional<PinholeCamera>& camera, const Message& message);
   std::uint64_t publish();
+  void republish();
 
   SceneStore& store_;
   const SceneStore::Lookup lookup_;
   const MemoryGuard& memory_;
 
-  std::mutex map_mutex_;  // guards map_ and excluded_
+  std::mutex map_mutex_;  // guards the next three members
   OccupancyMap map_;
   std::set<std::string> excluded_;
+  bool hides_voxels_ = false;  // voxels that the robot touches are not in the scene
 
   std::mutex waiting_mutex_;
   std::condition_variable arrived_;

@@ -289,6 +289,19 @@ TEST_F(OccupancyMapOfACamera, SeesAsFarAsItsRange)
   EXPECT_FALSE(isOccupied(map, {3.55, 0.05, 0.05})) << "not within the range";
 }
 
+TEST_F(OccupancyMapOfACamera, TakesNoVoxelAwayThatALaterMeasurementHasHit)
+{
+  OccupancyMap map(options_);
+  view_.time = 10.0;
+  see(map, 4.05F, 2.05F);  // at 11 s
+  view_.time = 9.5;
+  see(map, 4.05F, 4.05F);  // of a slow camera, at 10.5 s
+  EXPECT_TRUE(isOccupied(map, {2.05, 0.05, 0.05}));
+  view_.time = 1.0;
+  see(map, 4.05F, 4.05F);  // the clock was set back
+  EXPECT_FALSE(isOccupied(map, {2.05, 0.05, 0.05}));
+}
+
 TEST_F(OccupancyMapOfACamera, ForgetsAfterTheDecayAndStaysInTheRegion)
 {
   options_.decay = 5.0;

@@ -77,7 +77,7 @@ class SensorsOfANode : public RunningNode
 
   void see()
   {
-    const DepthImage seen = depthImageOf(*truth_, free_state.data(), kCamera, camera_);
+    const DepthImage seen = depthImageOf(*truth_, state_.data(), kCamera, camera_);
     sensor_msgs::Image image;
     image.header.frame_id = "camera";
     image.header.stamp = ros::Time::now();
@@ -159,6 +159,7 @@ class SensorsOfANode : public RunningNode
   std::map<std::string, std::string> values_;
   std::unique_ptr<PlanningScene> truth_;
   Eigen::Isometry3d camera_;
+  std::vector<double> state_ = free_state;  // of the robot before the camera
   std::string encoding_ = "32FC1";
 };
 
@@ -235,6 +236,31 @@ TEST_F(SensorsOfANode, NoMessageTakesTheirOctomapAway)
   EXPECT_EQ(voxels, octomap().size());
   EXPECT_TRUE(call<Clear>("clear_octomap", {}).success);
   EXPECT_EQ(0u, octomap().size());
+}
+
+TEST_F(SensorsOfANode, AVoxelThatTheRobotTouchedComesBackWithoutAMeasurement)
+{
+  std::vector<double> turned = free_state;
+  turned[0] += 1.2;
+  const Vector3d there = linkPose(tip, turned) * (linkPose(tip, free_state).inverse() * tipPoint());
+  const Vector3d outward = Vector3d(there.x(), there.y(), 0.0).normalized();
+  look(there + 1.2 * outward + Vector3d(0.0, 0.0, 0.5), there);
+  addToTruth("box", there, 0.2);
+  EXPECT_TRUE(seesUntil([&] { return voxelsNear(there, 0.15) > 0; }));
+  const auto move_to = [](const std::vector<double>& state)
+  {
+    PlanningSceneMessage change = diffScene();
+    change.robot_state.joint_state = stateMessage(state).joint_state;
+    apply(change);
+  };
+  move_to(turned);
+  state_ = turned;
+  const std::size_t all = voxelsNear(there, 0.15);
+  EXPECT_TRUE(seesUntil([&] { return voxelsNear(there, 0.15) < all; })) << "the robot touches voxels";
+  ros::WallDuration(0.5).sleep();  // for the last image
+  const std::size_t others = voxelsNear(there, 0.15);
+  move_to(free_state);
+  EXPECT_TRUE(becomes([&] { return voxelsNear(there, 0.15) > others; }));
 }
 
 TEST_F(SensorsOfANode, CloudsOfAScannerAreInTheSameMap)
