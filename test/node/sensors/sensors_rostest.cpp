@@ -8,8 +8,10 @@
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/PointCloud2.h>
 
+#include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "node/node_client.h"
+#include "node/sensors/sensor_options.h"
 #include "support/depth_camera.h"
 
 namespace gpu_planning_scene::core
@@ -309,6 +311,100 @@ TEST_F(SensorsOfANode, WrongMeasurementsAreCountedAndChangeNothing)
   const int used = std::stoi(statusOf(topic, "used"));
   EXPECT_TRUE(seesUntil([&] { return std::stoi(statusOf(topic, "used")) > used; }));
   EXPECT_LT(std::stod(statusOf(topic, "lag")), 1.0);
+}
+
+/// The error of sensorsFromParameters with this list of sensors and this value of another parameter.
+class SensorParameters : public testing::Test
+{
+ protected:
+  using Value = XmlRpc::XmlRpcValue;
+
+  void TearDown() override { own_.deleteParam(""); }
+
+  std::string errorWith(const Value& sensor, const std::string& other = "", const Value& value = {})
+  {
+    Value list;
+    list[0] = sensor;
+    own_.setParam("sensors", list);
+    if (!other.empty())
+      own_.setParam(other, value);
+    std::string error;
+    try
+    {
+      options_ = sensorsFromParameters(ros::NodeHandle(), own_, "world", warnings_);
+    }
+    catch (const Error& thrown)
+    {
+      error = thrown.what();
+    }
+    if (!other.empty())
+      own_.deleteParam(other);
+    return error;
+  }
+
+  static Value camera()
+  {
+    Value sensor;
+    sensor["image_topic"] = "/camera/depth/image_rect";
+    return sensor;
+  }
+
+  ros::NodeHandle own_{"/sensors_of_a_test"};
+  SensorsOptions options_;
+  std::vector<std::string> warnings_;
+};
+
+TEST_F(SensorParameters, AreThoseOfMoveItsFile)
+{
+  Value sensor = camera();
+  sensor["sensor_plugin"] = "occupancy_map_monitor/DepthImageOctomapUpdater";
+  sensor["near_clipping_plane_distance"] = 0.3;
+  sensor["far_clipping_plane_distance"] = 5;
+  sensor["padding_offset"] = 0.04;
+  sensor["padding_scale"] = 4.0;
+  sensor["max_update_rate"] = 1.0;
+  EXPECT_EQ("", errorWith(sensor));
+  ASSERT_EQ(1u, options_.sensors.size());
+  EXPECT_EQ("/camera/depth/image_rect", options_.sensors[0].topic);
+  EXPECT_EQ("/camera/depth/camera_info", options_.sensors[0].camera_info_topic);
+  EXPECT_EQ(0.3, options_.sensors[0].min_range);
+  EXPECT_EQ(5.0, options_.sensors[0].max_range);
+  EXPECT_EQ(0.04, options_.sensors[0].padding);
+  EXPECT_EQ(1.0, options_.sensors[0].max_rate);
+  ASSERT_EQ(1u, warnings_.size());
+  EXPECT_NE(std::string::npos, warnings_[0].find("these keys have no effect: padding_scale")) << warnings_[0];
+}
+
+TEST_F(SensorParameters, ThatAreWrongAreRefusedWithTheirName)
+{
+  const auto expect = [](const std::string& error, const std::string& part)
+  { EXPECT_NE(std::string::npos, error.find(part)) << error; };
+  Value misspelt = camera();
+  misspelt["max_rnage"] = 3.0;
+  expect(errorWith(misspelt), "unknown key 'max_rnage'; did you mean 'max_range'?");
+  Value both = camera();
+  both["point_cloud_topic"] = "/points";
+  expect(errorWith(both), "one of the two");
+  Value nothing;
+  nothing["max_range"] = 3.0;
+  expect(errorWith(nothing), "needs image_topic");
+  Value behind = camera();
+  behind["min_range"] = 3.0;
+  behind["max_range"] = 2.0;
+  expect(errorWith(behind), "the range ends before it begins");
+  Value text = camera();
+  text["padding_offset"] = "much";
+  expect(errorWith(text), "padding_offset is not a number");
+  Value step = camera();
+  step["point_subsample"] = 1.5;
+  expect(errorWith(step), "point_subsample is not an integer");
+  expect(errorWith(camera(), "octomap_frame", "odom"), "~octomap_frame is 'odom'");
+  expect(errorWith(camera(), "octomap_resolution", 0.0), "octomap_resolution");
+  expect(errorWith(camera(), "follow", "/leader"), "~sensors and ~follow exclude each other");
+  Value region;
+  for (int i = 0; i < 6; ++i)
+    region[i] = i < 3 ? 1.0 : 0.0;
+  expect(errorWith(camera(), "octomap_region", region), "~octomap_region is empty");
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
