@@ -13,7 +13,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A pinhole camera without distortion, as in sensor_msgs/CameraInfo. All lengths are pixels. The center of the first
+/// A pinhole camera without distortion, as in sensor_msgs/CameraInfo. All lengths are pixels. The centre of the first
 /// pixel is at (0, 0).
 struct PinholeCamera
 {
@@ -38,7 +38,8 @@ struct DepthImage
 struct SensorView
 {
   Eigen::Isometry3d sensor = Eigen::Isometry3d::Identity();  ///< pose of the sensor's frame in the planning frame
-  double time = 0.0;                                         ///< seconds; only differences count
+  double time = 0.0;      ///< seconds: of the measurement, on the clock of the sensors
+  double received = 0.0;  ///< seconds: of the arrival, on one clock that is never set back
   /// Metres: along the optical axis for images, from the sensor for clouds. Nearer points are not used. Rays count up
   /// to the maximum, and points behind it are not used.
   double min_range = 0.0;
@@ -54,25 +55,30 @@ struct OccupancyMapOptions
   /// In the planning frame. Points outside are not used. The default is everything.
   Eigen::AlignedBox3d region = {Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity()),
                                 Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity())};
-  /// Seconds: a voxel that no point has hit for so long is removed, also where no sensor looks. 0: never.
+  /// Seconds (SensorView::received): a voxel that no point has hit for so long is removed, also where no sensor looks.
+  /// 0: never.
   double decay = 0.0;
-  std::size_t max_voxels = 200'000;  ///< a measurement that would lead to more is refused
+  std::size_t max_voxels = 200'000;  ///< see add()
 };
 
 /// The voxels that depth cameras and laser scanners have found occupied. Free space is not stored, because the scene
 /// does not need it.
 ///
-/// A measured point occupies its voxel at once, unless the voxel's center is outside the image. A voxel is removed
-/// after as many measurements that see through it as it has lately been hit, three at most: then a sensor has measured
-/// what is behind it, and nothing in it (see DepthView). A voxel that no sensor sees stays, for example one that the
-/// robot hides. A measurement that comes late, by two seconds at most, removes no voxel that was hit at a later time.
+/// A measured point occupies its voxel at once. Not used are points outside the range or the region, points near the
+/// robot (SensorView::padding), and points at the border of an image if the centre of their voxel is outside the image.
+///
+/// A measurement sees through a voxel if it has rays to the space behind the voxel, and no ray that ends at or before
+/// the voxel (see DepthView). Each such measurement takes one hit of the voxel back. A voxel keeps three hits at most,
+/// and without hits it is removed. So it is removed after three such measurements at the latest. A voxel that no sensor
+/// sees stays, for example one that the robot hides. A measurement that comes up to two seconds late takes no hit back
+/// that was measured after it.
 ///
 /// The robot, its attached objects, and objects that the caller names are left out by their exact geometry: see
 /// SensorView::padding and cubes(). Voxels that were occupied before the robot came near them stay.
 ///
-/// This is the evidence of A. Hornung, K. M. Wurm, M. Bennewitz, C. Stachniss, W. Burgard: OctoMap. Autonomous Robots,
-/// 2013, with a bound of three measurements. Rays are not followed through voxels, as they are there: voxels are
-/// compared with the image. Not thread-safe.
+/// Counting hits and misses with a bound follows A. Hornung, K. M. Wurm, M. Bennewitz, C. Stachniss, W. Burgard:
+/// OctoMap. Autonomous Robots, 2013; there, a hit weighs twice as much as a miss, and rays are followed through the
+/// voxels. Here, the voxels are compared with the image. Not thread-safe.
 class OccupancyMap
 {
  public:
@@ -82,16 +88,18 @@ class OccupancyMap
 
   /// Takes a measurement. `state`: one value per variable, of the time of the measurement. `left_out`: ids of objects
   /// of the world that are known exactly, for example a part that is to be grasped. Their points are not used, and
-  /// voxels within SensorView::padding of them are removed. The same happens once to an object when it has been
-  /// attached. Throws Error if an argument is not valid, if there would be too many voxels, or if a point is too far
-  /// away for the size of the voxels. If it throws, nothing has changed.
-  void add(const DepthImage& image, const SensorView& view, const PlanningScene& scene, const double* state,
-           const std::set<std::string>& left_out = {});
+  /// voxels within SensorView::padding of them are removed. Ids of attached objects count as the robot, and unknown ids
+  /// have no effect. Returns the number of voxels that found no room in `max_voxels`; these are the farthest from the
+  /// sensor. Throws Error if an argument is not valid, or if a point is too far away for the size of the voxels. If it
+  /// throws, nothing has changed.
+  std::size_t add(const DepthImage& image, const SensorView& view, const PlanningScene& scene, const double* state,
+                  const std::set<std::string>& left_out = {});
   /// `points`: metres, in the sensor's frame. Points that are not finite are not measured.
-  void add(const std::vector<Eigen::Vector3f>& points, const SensorView& view, const PlanningScene& scene,
-           const double* state, const std::set<std::string>& left_out = {});
+  std::size_t add(const std::vector<Eigen::Vector3f>& points, const SensorView& view, const PlanningScene& scene,
+                  const double* state, const std::set<std::string>& left_out = {});
 
-  /// Removes the voxels whose distance from one of these objects is at most `padding` (metres). Errors: as for add().
+  /// Removes the voxels whose distance from one of these objects, of the world or attached, is at most `padding`
+  /// (metres). Call it for an object that is attached: its voxels would stay where they are. Errors: as for add().
   void removeNear(const std::set<std::string>& objects, double padding, const PlanningScene& scene,
                   const double* state);
 

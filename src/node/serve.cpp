@@ -145,7 +145,11 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
 
   std::optional<Sensors> sensors;
   if (!sensors_options.sensors.empty())
-    sensors.emplace(node, own, store, look_up, memory, diagnostics, sensors_options);
+  {
+    const SceneStore::Lookup find_frame = [&lookup](const StampedFrame& frame)
+    { return lookup(frame, FrameLookup::Clock::now()); };
+    sensors.emplace(node, own, store, find_frame, options.tf_timeout, memory, diagnostics, sensors_options);
+  }
 
   Endpoints change_requests(node, own, 3, diagnostics, require_own_scene);
   change_requests.advertise<ApplyPlanningScene>(

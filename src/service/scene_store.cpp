@@ -205,10 +205,12 @@ SceneStore::Applied SceneStore::make(const SceneChange& change, const Lookup& lo
     // Another change may have removed a frame that the scene had during the lookup.
     if (at.scene != asked && !hasAll(frames, externalFrames(*at.scene, change)))
       continue;
+    std::vector<std::string> warnings;
     ChangedScene made =
         applyChange(*at.scene, startingState(at, change.state.variables),
-                    keeps_octomap ? keepingOctomap(change, *at.scene) : change, defaults_, limits_, frames);
-    return {replace(std::move(made.scene), change.state.variables, at.scene->revision + 1), std::move(made.warnings)};
+                    keeps_octomap ? keepingOctomap(change, *at.scene, warnings) : change, defaults_, limits_, frames);
+    warnings.insert(warnings.end(), made.warnings.begin(), made.warnings.end());
+    return {replace(std::move(made.scene), change.state.variables, at.scene->revision + 1), std::move(warnings)};
   }
 }
 

@@ -87,8 +87,7 @@ class SceneStore
   /// nothing has changed.
   Applied apply(const SceneChange& change, const Lookup& lookup);
 
-  /// From now on, only sense() changes the octomap of the scene: apply() refuses a change that brings an octomap, and
-  /// leaves the octomap in the scene otherwise, as clear() does.
+  /// From now on, only sense() changes the octomap of the scene: apply() and clear() leave it, see keepingOctomap.
   void reserveOctomap() { octomap_is_sensed_ = true; }
   /// As apply(), for a change by sensors, which needs no frames.
   Applied sense(const SceneChange& change) { return make(change, {}, false); }

@@ -2,22 +2,19 @@
 
 #include <algorithm>
 
-#include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 
 namespace gpu_planning_scene::core
 {
-SceneChange keepingOctomap(SceneChange change, const PlanningScene& scene)
+SceneChange keepingOctomap(SceneChange change, const PlanningScene& scene, std::vector<std::string>& warnings)
 {
   const auto is_octomap = [](const auto& object) { return object.id == kOctomapId; };
   auto& objects = change.objects;
-  if (std::any_of(objects.begin(), objects.end(),
-                  [&](const ObjectChange& object)
-                  { return is_octomap(object) && object.operation != Operation::Remove; }))
-    throw Error(
-        "the octomap comes from this node's sensors (~sensors), so no message can replace it; leave world.octomap "
-        "empty, or run the node without sensors");
-  objects.erase(std::remove_if(objects.begin(), objects.end(), is_octomap), objects.end());
+  const auto octomaps = std::remove_if(objects.begin(), objects.end(), is_octomap);
+  if (octomaps != objects.end())
+    warnings.push_back(
+        "the octomap stays as it is, because it comes from this node's sensors (~sensors); ~clear_octomap forgets it");
+  objects.erase(octomaps, objects.end());
   const auto kept = std::find_if(scene.objects.begin(), scene.objects.end(), is_octomap);
   if (!change.is_diff && kept != scene.objects.end())
   {

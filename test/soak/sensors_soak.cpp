@@ -42,11 +42,6 @@ struct Frame
   sensor_msgs::Image image;
 };
 
-WorldObject boxAt(const std::string& id, const Vector3d& center, const Vector3d& size)
-{
-  return {id, Isometry3d(Eigen::Translation3d(center)), {{Box{size}}}};
-}
-
 /// The arm swings from side to side. The obstacle comes to one side while the arm is at the other side.
 std::vector<Frame> makeFrames(const std::shared_ptr<const RobotModel>& robot, const Isometry3d& camera_pose)
 {
@@ -64,7 +59,7 @@ std::vector<Frame> makeFrames(const std::shared_ptr<const RobotModel>& robot, co
     PlanningScene scene(robot);
     scene.objects = frame.world;
     DepthImage image = depthImageOf(scene, frame.state.data(), kCamera, camera_pose);
-    addNoise(image, {0.001, 0.02}, generator);
+    addNoise(image, {0.001, 0.005}, generator);
     frame.image.header.frame_id = "camera";
     frame.image.width = static_cast<std::uint32_t>(kCamera.width);
     frame.image.height = static_cast<std::uint32_t>(kCamera.height);
@@ -75,13 +70,6 @@ std::vector<Frame> makeFrames(const std::shared_ptr<const RobotModel>& robot, co
     frames.push_back(std::move(frame));
   }
   return frames;
-}
-
-double distanceFrom(const WorldObject& box, const Vector3d& point)
-{
-  const Vector3d half = 0.5 * std::get<Box>(box.shapes.at(0).shape).size;
-  const Vector3d beyond = (box.pose.inverse() * point).cwiseAbs() - half;
-  return std::abs(beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0));
 }
 
 class SensorsSoak : public RunningNode
@@ -222,9 +210,9 @@ class SensorsSoak : public RunningNode
   }
 
   /// Whether a frame's camera sees what is behind a ball of this radius, and around it.
-  bool seesAround(const Frame& seen, const Vector3d& center, double radius) const
+  bool seesAround(const Frame& seen, const Vector3d& centre, double radius) const
   {
-    const Vector3d local = camera.inverse() * center;
+    const Vector3d local = camera.inverse() * centre;
     const double u = kCamera.cx + kCamera.fx * local.x() / local.z();
     const double v = kCamera.cy + kCamera.fy * local.y() / local.z();
     const double reach = 1.5 * kCamera.fx * radius / local.z() + 5.0;  // pixels
@@ -259,10 +247,30 @@ class SensorsSoak : public RunningNode
         if (!seesAround(seen, cube.pose.translation(), reach))
           nearest = 0.0;
         for (const WorldObject& object : seen.world)
-          nearest = std::min(nearest, distanceFrom(object, cube.pose.translation()));
+          nearest = std::min(nearest, distanceFromSurface(object, cube.pose.translation()));
       }
       invented += nearest > reach ? 1 : 0;
     }
+    // The obstacle is nowhere near these points, nor is the robot.
+    const Frame& seen = frames.at(static_cast<std::size_t>(now % kFrames));
+    for (int y = 10; y < kCamera.height; y += 40)
+      for (int x = 10; x < kCamera.width; x += 40)
+      {
+        float depth = 0.0F;
+        std::memcpy(&depth, seen.image.data.data() + static_cast<std::size_t>(y * kCamera.width + x) * sizeof(float),
+                    sizeof(float));
+        const double z = static_cast<double>(depth);
+        const Vector3d point =
+            camera * Vector3d((x - kCamera.cx) / kCamera.fx * z, (y - kCamera.cy) / kCamera.fy * z, z);
+        const bool is_of_floor_or_wall =
+            std::min(distanceFromSurface(seen.world[0], point), distanceFromSurface(seen.world[1], point)) < 0.01;
+        if (!(z < 4.9) || !is_of_floor_or_wall || point.head<2>().norm() < 1.2 || point.cwiseAbs().maxCoeff() > 1.4)
+          continue;
+        const bool has_voxel = std::any_of(cubes.begin(), cubes.end(),
+                                           [&](const PlacedShape& cube)
+                                           { return (cube.pose.translation() - point).cwiseAbs().maxCoeff() < reach; });
+        missing += has_voxel ? 0 : 1;
+      }
     most_voxels = std::max(most_voxels, cubes.size());
     least_voxels = std::min(least_voxels, cubes.size());
     ++comparisons;
@@ -281,7 +289,7 @@ class SensorsSoak : public RunningNode
   std::atomic<bool> done{false};
   std::atomic<int> lost{0}, busy{0}, failed{0}, watch_messages{0}, judged_verdicts{0}, wrong_verdicts{0},
       found_collisions{0};
-  std::size_t invented = 0, comparisons = 0, most_voxels = 0, least_voxels = 1000000;
+  std::size_t invented = 0, missing = 0, comparisons = 0, most_voxels = 0, least_voxels = 1000000;
   std::unique_ptr<AnswerJudge> judge;
   Latencies latencies, latencies_of_watch, lags;
   std::vector<double> memories;
@@ -348,8 +356,8 @@ TEST_F(SensorsSoak, TheMapFollowsTheWorldAndNoAnswerIsWrong)
 
   std::printf("%g s, %d clients, %zu comparisons of the octomap, %zu to %zu voxels\n", seconds, clients, comparisons,
               least_voxels, most_voxels);
-  std::printf("images: %s used, %s dropped, %s refused; longest lag of each second: ", counts["used"].c_str(),
-              counts["dropped"].c_str(), counts["refused"].c_str());
+  std::printf("images: %s used, %s dropped, %s rejected; longest lag of each second: ", counts["used"].c_str(),
+              counts["dropped"].c_str(), counts["rejected"].c_str());
   lags.print();
   std::printf("answers: ");
   latencies.print();
@@ -362,11 +370,19 @@ TEST_F(SensorsSoak, TheMapFollowsTheWorldAndNoAnswerIsWrong)
               late / 1048576.0);
   judge->expectNoWrongAnswer();
   EXPECT_EQ(0u, invented) << "voxels away from the truth";
+  EXPECT_EQ(0u, missing) << "points of floor and wall without a voxel";
   EXPECT_GT(least_voxels, 1000u);
+  EXPECT_GT(comparisons, 10u);
   EXPECT_EQ(0, lost) << "requests without a reply";
   EXPECT_EQ(0, failed);
   EXPECT_EQ(0, wrong_verdicts) << "verdicts of the watch";
-  EXPECT_EQ("0", counts["refused"]);
+  if (clients > 0)
+  {
+    EXPECT_GT(judge->answers, 100u);
+    EXPECT_GT(judged_verdicts, found_collisions);
+    EXPECT_GT(found_collisions, 0) << "the obstacle comes in the way";
+  }
+  EXPECT_EQ("0", counts["rejected"]);
   EXPECT_EQ(0, history.gaps());
   constexpr double kShortestForMemory = 120.0;  // seconds
   if (seconds >= kShortestForMemory)

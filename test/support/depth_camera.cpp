@@ -137,6 +137,18 @@ DepthImage depthImageOf(const PlanningScene& scene, const double* state, const P
   return buffer.take();
 }
 
+WorldObject boxAt(const std::string& id, const Vector3d& centre, const Vector3d& size)
+{
+  return {id, Isometry3d(Eigen::Translation3d(centre)), {{Box{size}}}};
+}
+
+double distanceFromSurface(const WorldObject& box, const Vector3d& point)
+{
+  const Vector3d half = 0.5 * std::get<Box>(box.shapes.at(0).shape).size;
+  const Vector3d beyond = (box.pose.inverse() * point).cwiseAbs() - half;
+  return std::abs(beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0));
+}
+
 Vector3d pointOf(const DepthImage& image, int x, int y)
 {
   const PinholeCamera& camera = image.camera;

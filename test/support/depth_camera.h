@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <random>
+#include <string>
 
 #include <Eigen/Geometry>
 
@@ -22,6 +23,12 @@ struct DepthNoise
 /// right, y down, z forward.
 DepthImage depthImageOf(const PlanningScene& scene, const double* state, const PinholeCamera& camera,
                         const Eigen::Isometry3d& camera_pose);
+
+/// An object that is a box of this size (metres).
+WorldObject boxAt(const std::string& id, const Eigen::Vector3d& centre, const Eigen::Vector3d& size);
+
+/// Metres: the distance of a point from the surface of an object of boxAt().
+double distanceFromSurface(const WorldObject& box, const Eigen::Vector3d& point);
 
 /// The point of a pixel's depth, in the camera's frame.
 Eigen::Vector3d pointOf(const DepthImage& image, int x, int y);

@@ -22,9 +22,9 @@ constexpr double kCubeMargin = 1e-6;  // metres
 
 AlignedBox3d boundsAt(const AlignedBox3d& local, const Isometry3d& pose, double margin)
 {
-  const Vector3d center = pose * local.center();
+  const Vector3d centre = pose * local.center();
   const Vector3d half = (0.5 * (pose.linear().cwiseAbs() * local.sizes())).array() + margin;
-  return {center - half, center + half};
+  return {centre - half, centre + half};
 }
 
 /// The robot and its attached objects with this padding. The named objects of the world are attached to the first link,
@@ -55,7 +55,7 @@ PlanningScene paddedBodies(const PlanningScene& scene, const std::vector<Isometr
 
 /// The indices of the cubes whose boxes are within the padding of the bounding box of a shape of the robot.
 std::vector<std::size_t> cubesNear(const PlanningScene& bodies, const std::vector<Isometry3d>& link_poses,
-                                   double margin, const std::vector<Vector3d>& centers)
+                                   double margin, const std::vector<Vector3d>& centres)
 {
   std::vector<AlignedBox3d> boxes;
   AlignedBox3d all;
@@ -68,24 +68,24 @@ std::vector<std::size_t> cubesNear(const PlanningScene& bodies, const std::vecto
       all.extend(boxes.back());
     }
   std::vector<std::size_t> near;
-  for (std::size_t i = 0; i < centers.size(); ++i)
-    if (all.contains(centers[i]) &&
-        std::any_of(boxes.begin(), boxes.end(), [&](const AlignedBox3d& box) { return box.contains(centers[i]); }))
+  for (std::size_t i = 0; i < centres.size(); ++i)
+    if (all.contains(centres[i]) &&
+        std::any_of(boxes.begin(), boxes.end(), [&](const AlignedBox3d& box) { return box.contains(centres[i]); }))
       near.push_back(i);
   return near;
 }
 }  // namespace
 
-std::vector<std::uint8_t> BodyFilter::near(const VoxelGrid& grid, const std::vector<Vector3d>& centers,
+std::vector<std::uint8_t> BodyFilter::near(const VoxelGrid& grid, const std::vector<Vector3d>& centres,
                                            const PlanningScene& scene, const double* state, double padding,
                                            const std::set<std::string>& objects)
 {
   std::vector<Isometry3d> link_poses(scene.robot->links().size());
   scene.robot->linkPoses(state, link_poses.data());
-  std::vector<std::uint8_t> flags(centers.size(), kNearNothing);
+  std::vector<std::uint8_t> flags(centres.size(), kNearNothing);
   PlanningScene bodies = paddedBodies(scene, link_poses, padding, objects);
   const std::vector<std::size_t> near =
-      cubesNear(bodies, link_poses, 0.5 * grid.size() + padding + kCubeMargin, centers);
+      cubesNear(bodies, link_poses, 0.5 * grid.size() + padding + kCubeMargin, centres);
   if (near.empty())
     return flags;
   const std::size_t first_attached = link_poses.size() + 1;  // bodies: the links, the cubes, the attached objects
@@ -99,11 +99,11 @@ std::vector<std::uint8_t> BodyFilter::near(const VoxelGrid& grid, const std::vec
     flag_of_body.push_back(objects.count(id) != 0 ? kNearObject : kNearRobot);
     cubes += id;
   }
-  std::vector<Vector3d> near_centers;
-  near_centers.reserve(near.size());
+  std::vector<Vector3d> near_centres;
+  near_centres.reserve(near.size());
   for (const std::size_t cube : near)
-    near_centers.push_back(centers[cube]);
-  bodies.objects.push_back({cubes + "_", Isometry3d::Identity(), grid.cubesAt(near_centers), 0.0});
+    near_centres.push_back(centres[cube]);
+  bodies.objects.push_back({cubes + "_", Isometry3d::Identity(), grid.cubesAt(near_centres), 0.0});
   CollisionProblem problem = maker_.make(bodies, "", nullptr);
   problem.self_pairs.clear();
   const auto shared = std::make_shared<const CollisionProblem>(std::move(problem));

@@ -41,7 +41,7 @@ class BodyFilter
   /// The NearBody flags of each cube of `grid`. A cube is near a body if their distance is at most `padding` (metres).
   /// `state`: one value per variable. `objects`: ids of objects of the world and of attached objects; ids that the
   /// scene does not have are ignored. Throws Error if a named object has a half-space.
-  std::vector<std::uint8_t> near(const VoxelGrid& grid, const std::vector<Eigen::Vector3d>& centers,
+  std::vector<std::uint8_t> near(const VoxelGrid& grid, const std::vector<Eigen::Vector3d>& centres,
                                  const PlanningScene& scene, const double* state, double padding,
                                  const std::set<std::string>& objects);
 

@@ -18,17 +18,18 @@ struct PixelRange
 };
 
 /// The pixels in which the interval [low, high] at the depths [near, far] may appear, and one more on each side.
-PixelRange pixelsOf(double low, double high, double near, double far, double focal_length, double center, int size)
+PixelRange pixelsOf(double low, double high, double near, double far, double focal_length, double centre, int size)
 {
-  const double first = center + focal_length * std::min(low / near, low / far);
-  const double last = center + focal_length * std::max(high / near, high / far);
+  const double first = centre + focal_length * std::min(low / near, low / far);
+  const double last = centre + focal_length * std::max(high / near, high / far);
   const double border = size - 1;
   return {static_cast<int>(std::clamp(std::floor(first) - 1.0, 0.0, border)),
           static_cast<int>(std::clamp(std::ceil(last) + 1.0, 0.0, border))};
 }
 }  // namespace
 
-DepthView::DepthView(const PinholeCamera& camera, std::vector<float> depths) : camera_(camera)
+DepthView::DepthView(const PinholeCamera& camera, std::vector<float> depths, bool has_gaps)
+  : camera_(camera), has_gaps_(has_gaps)
 {
   levels_.push_back({camera.width, camera.height, std::move(depths)});
   while (levels_.back().width > 1 || levels_.back().height > 1)
@@ -55,16 +56,16 @@ bool DepthView::shows(const Eigen::Vector3d& point) const
   return point.z() > 0.0 && u >= -0.5 && u <= camera_.width - 0.5 && v >= -0.5 && v <= camera_.height - 0.5;
 }
 
-bool DepthView::seesBehind(const Eigen::Vector3d& center, double radius) const
+bool DepthView::seesBehind(const Eigen::Vector3d& centre, double radius) const
 {
-  const double near = center.z() - radius;
-  const double far = center.z() + radius;
-  if (near <= 0.0 || !shows(center))
+  const double near = centre.z() - radius;
+  const double far = centre.z() + radius;
+  if (near <= 0.0 || !shows(centre))
     return false;
   const PixelRange columns =
-      pixelsOf(center.x() - radius, center.x() + radius, near, far, camera_.fx, camera_.cx, camera_.width);
+      pixelsOf(centre.x() - radius, centre.x() + radius, near, far, camera_.fx, camera_.cx, camera_.width);
   const PixelRange rows =
-      pixelsOf(center.y() - radius, center.y() + radius, near, far, camera_.fy, camera_.cy, camera_.height);
+      pixelsOf(centre.y() - radius, centre.y() + radius, near, far, camera_.fy, camera_.cy, camera_.height);
   int level = 0;
   while ((std::max(columns.last - columns.first, rows.last - rows.first) >> level) >= kMaxReads)
     ++level;
@@ -73,6 +74,27 @@ bool DepthView::seesBehind(const Eigen::Vector3d& center, double radius) const
   for (int y = rows.first >> level; y <= rows.last >> level; ++y)
     for (int x = columns.first >> level; x <= columns.last >> level; ++x)
       smallest = std::min(smallest, depths.depths[static_cast<std::size_t>(y * depths.width + x)]);
-  return std::isfinite(smallest) && static_cast<double>(smallest) > far;
+  return std::isfinite(smallest) && static_cast<double>(smallest) > far &&
+         (!has_gaps_ || passesThrough(centre, radius / std::sqrt(3.0)));
+}
+
+/// Whether a ray is certain to pass through a ball. A ray is somewhere in its pixel, and the pixels of the square
+/// inside the ball's image are within the ball.
+bool DepthView::passesThrough(const Eigen::Vector3d& centre, double radius) const
+{
+  const auto pixels_of = [&](double coordinate, double focal_length, double principal_point, int size)
+  {
+    const double middle = principal_point + focal_length * coordinate / centre.z();
+    const double half = focal_length * radius / (std::sqrt(2.0) * centre.z()) - 0.5;
+    return PixelRange{static_cast<int>(std::clamp(std::ceil(middle - half), 0.0, 1.0 * size)),
+                      static_cast<int>(std::clamp(std::floor(middle + half), -1.0, size - 1.0))};
+  };
+  const PixelRange columns = pixels_of(centre.x(), camera_.fx, camera_.cx, camera_.width);
+  const PixelRange rows = pixels_of(centre.y(), camera_.fy, camera_.cy, camera_.height);
+  for (int y = rows.first; y <= rows.last; ++y)
+    for (int x = columns.first; x <= columns.last; ++x)
+      if (std::isfinite(levels_[0].depths[static_cast<std::size_t>(y * camera_.width + x)]))
+        return true;
+  return false;
 }
 }  // namespace gpu_planning_scene::core

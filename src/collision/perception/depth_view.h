@@ -14,18 +14,20 @@ namespace gpu_planning_scene::core
 class DepthView
 {
  public:
-  /// `depths`: metres along the optical axis, row by row. Infinity: no ray. 0: a ray that ends in front of everything.
-  DepthView(const PinholeCamera& camera, std::vector<float> depths);
+  /// `depths`: metres along the optical axis, row by row. Infinity: there is no ray in this pixel. 0: the ray ends
+  /// before all bodies. `has_gaps`: pixels without a ray are places that the sensor did not look at, as between the
+  /// rows of a laser scanner.
+  DepthView(const PinholeCamera& camera, std::vector<float> depths, bool has_gaps = false);
 
   /// Whether a point is in front of the camera and in its image.
   bool shows(const Eigen::Vector3d& point) const;
 
-  /// Whether the camera sees what is behind a ball. `center`, `radius`: metres, in the camera's frame (x to the right,
-  /// y down, z forward). True if the image shows the ball's center, a ray is measured near the ball, and every measured
-  /// ray near it ends behind it. "Near" is the ball's bounding rectangle in the image, enlarged by a pixel. So a ball
-  /// beside the silhouette of a nearer surface is not seen through, nor is a ball on a surface that the camera sees at
-  /// a grazing angle.
-  bool seesBehind(const Eigen::Vector3d& center, double radius) const;
+  /// Whether the camera sees what is behind the voxel in a ball. `centre`, `radius`: metres, of the ball, in the
+  /// camera's frame (x to the right, y down, z forward). True if the image shows the centre, at least one ray is
+  /// measured near the ball, and every measured ray near it ends behind it. "Near" is the ball's bounding rectangle in
+  /// the image, enlarged by a pixel. So the camera does not see behind a voxel at the edge of a nearer surface, nor
+  /// through a surface at a grazing angle. If the rays have gaps, at least one ray must also pass through the voxel.
+  bool seesBehind(const Eigen::Vector3d& centre, double radius) const;
 
  private:
   struct Level
@@ -35,7 +37,10 @@ class DepthView
     std::vector<float> depths;
   };
 
+  bool passesThrough(const Eigen::Vector3d& centre, double radius) const;
+
   PinholeCamera camera_;
+  bool has_gaps_;
   std::vector<Level> levels_;
 };
 }  // namespace gpu_planning_scene::core

@@ -46,8 +46,9 @@ void requireImage(const DepthImage& image)
     throw Error("the focal lengths or the principal point of a depth camera are not valid; calibrate the camera");
 }
 
-/// The ray of a pixel that is not measured. A single pixel of noise among measured pixels counts as no ray. In a patch
-/// of such pixels, for example on a dark or reflecting body, anything may be there.
+/// The ray of a pixel that is not measured. A single pixel of noise, all of whose neighbours but one are measured,
+/// counts as no ray. Several such pixels together may be a body that the camera cannot measure: a dark or reflecting
+/// one, or a thin wire.
 float unmeasuredRay(const DepthImage& image, int x, int y)
 {
   int measured = 0;
@@ -61,7 +62,7 @@ float unmeasuredRay(const DepthImage& image, int x, int y)
       ++neighbours;
       measured += depth > 0.0F ? 1 : 0;
     }
-  return 2 * measured > neighbours ? kNoRay : kBlocked;
+  return neighbours - measured <= 1 ? kNoRay : kBlocked;
 }
 
 /// The face of a cube around the sensor that a ray leaves through: 2 axis + (1 if the coordinate is negative).
@@ -141,7 +142,7 @@ Measurement measurementOf(const std::vector<Vector3f>& points, const SensorView&
   }
   for (std::size_t face = 0; face < 6; ++face)
     if (!rays[face].empty())
-      measurement.views.push_back({rotations[face], DepthView(camera, std::move(rays[face]))});
+      measurement.views.push_back({rotations[face], DepthView(camera, std::move(rays[face]), true)});
   return measurement;
 }
 }  // namespace gpu_planning_scene::core

@@ -36,15 +36,20 @@ bool isBefore(double time, double other)
 struct Voxel
 {
   std::uint64_t key;
-  double seen;            // seconds: the time of the last hit
+  double seen;            // seconds: SensorView::time of the last hit
+  double received;        // seconds: SensorView::received of the last hit
   std::uint8_t evidence;  // 1 to kMaxEvidence
 };
 
-void requireMetres(bool fits, double value, const char* what)
+struct Hit
 {
-  if (!fits || !std::isfinite(value))
-    throw Error(std::string("sensors: ") + what + " is " + numberText(value) + "; it must be a finite number" +
-                (value <= 0.0 ? " above 0" : ""));
+  std::uint64_t key;
+  bool may_be_robot;  // within the padding of the robot
+};
+
+bool hasSmallerKey(const Voxel& a, const Voxel& b)
+{
+  return a.key < b.key;
 }
 }  // namespace
 
@@ -52,33 +57,33 @@ struct OccupancyMap::Impl
 {
   explicit Impl(const OccupancyMapOptions& given) : options(given), grid(given.resolution) {}
 
-  void add(const Measurement& measurement, const SensorView& view, const PlanningScene& scene, const double* state,
-           const std::set<std::string>& left_out);
-  std::vector<Voxel> hitVoxels(const Measurement& measurement, const Isometry3d& sensor, double time) const;
-  std::vector<Voxel> merged(const std::vector<Voxel>& hits, const std::vector<PlacedView>& views,
-                            const Isometry3d& sensor, double time) const;
-  std::vector<Vector3d> centersOf(const std::vector<Voxel>& some) const;
+  std::size_t add(const Measurement& measurement, const SensorView& view, const PlanningScene& scene,
+                  const double* state, const std::set<std::string>& left_out);
+  std::vector<Hit> hitVoxels(const Measurement& measurement, const Isometry3d& sensor) const;
+  template <class Keyed>
+  std::vector<Vector3d> centresOf(const std::vector<Keyed>& some) const;
+  std::vector<Voxel> takeKnown(std::vector<Hit>& hits, const Measurement& measurement, const Isometry3d& sensor,
+                               const SensorView& view) const;
 
   const OccupancyMapOptions options;
   const VoxelGrid grid;
   BodyFilter bodies;
-  std::vector<Voxel> voxels;       // in ascending order of their keys
-  std::set<std::string> attached;  // objects that were attached at the last measurement
+  std::vector<Voxel> voxels;  // in ascending order of their keys
 };
 
-std::vector<Vector3d> OccupancyMap::Impl::centersOf(const std::vector<Voxel>& some) const
+template <class Keyed>
+std::vector<Vector3d> OccupancyMap::Impl::centresOf(const std::vector<Keyed>& some) const
 {
-  std::vector<Vector3d> centers;
-  centers.reserve(some.size());
-  for (const Voxel& voxel : some)
-    centers.push_back(grid.centerOf(voxel.key));
-  return centers;
+  std::vector<Vector3d> centres;
+  centres.reserve(some.size());
+  for (const Keyed& voxel : some)
+    centres.push_back(grid.centreOf(voxel.key));
+  return centres;
 }
 
-/// The voxels that contain a point of the region and whose centers are in a view, in ascending order of their keys,
-/// each once. A voxel at the border of an image, with its center outside, could not be removed again.
-std::vector<Voxel> OccupancyMap::Impl::hitVoxels(const Measurement& measurement, const Isometry3d& sensor,
-                                                 double time) const
+/// The voxels that contain a point of the region and whose centres are in a view, in ascending order of their keys,
+/// each once. A voxel at the border of an image, with its centre outside, could not be removed again.
+std::vector<Hit> OccupancyMap::Impl::hitVoxels(const Measurement& measurement, const Isometry3d& sensor) const
 {
   VoxelKeys keys;
   for (const Vector3d& point : measurement.points)
@@ -87,85 +92,105 @@ std::vector<Voxel> OccupancyMap::Impl::hitVoxels(const Measurement& measurement,
     if (options.region.contains(placed))
       keys.add(grid.keyOf(placed));
   }
-  std::vector<Voxel> hits;
+  std::vector<Hit> hits;
   const Isometry3d to_sensor = sensor.inverse();
   for (const std::uint64_t key : keys.take())
   {
-    const Vector3d center = to_sensor * grid.centerOf(key);
+    const Vector3d centre = to_sensor * grid.centreOf(key);
     if (std::any_of(measurement.views.begin(), measurement.views.end(),
-                    [&](const PlacedView& placed) { return placed.depths.shows(placed.from_sensor * center); }))
-      hits.push_back({key, time, 1});
+                    [&](const PlacedView& placed) { return placed.depths.shows(placed.from_sensor * centre); }))
+      hits.push_back({key, false});
   }
   return hits;
 }
 
-/// The voxels after a measurement.
-std::vector<Voxel> OccupancyMap::Impl::merged(const std::vector<Voxel>& hits, const std::vector<PlacedView>& views,
-                                              const Isometry3d& sensor, double time) const
+/// The known voxels after a measurement. Takes their hits out of `hits`. A point near the robot counts for a voxel that
+/// is known: a robot that stands beside an obstacle does not let it decay.
+std::vector<Voxel> OccupancyMap::Impl::takeKnown(std::vector<Hit>& hits, const Measurement& measurement,
+                                                 const Isometry3d& sensor, const SensorView& view) const
 {
   const Isometry3d to_sensor = sensor.inverse();
   const double radius = 0.5 * std::sqrt(3.0) * grid.size();  // of the ball around a voxel
   const auto is_seen_through = [&](const Voxel& voxel)
   {
-    const Vector3d center = to_sensor * grid.centerOf(voxel.key);
-    return std::any_of(views.begin(), views.end(),
-                       [&](const PlacedView& view)
-                       { return view.depths.seesBehind(view.from_sensor * center, radius); });
+    const Vector3d centre = to_sensor * grid.centreOf(voxel.key);
+    return std::any_of(measurement.views.begin(), measurement.views.end(),
+                       [&](const PlacedView& placed)
+                       { return placed.depths.seesBehind(placed.from_sensor * centre, radius); });
   };
-  std::vector<Voxel> all;
-  all.reserve(voxels.size() + hits.size());
+  std::vector<Voxel> known;
+  known.reserve(voxels.size());
+  std::vector<Hit> others;
   auto hit = hits.begin();
   for (Voxel voxel : voxels)
   {
     for (; hit != hits.end() && hit->key < voxel.key; ++hit)
-      all.push_back(*hit);
+      others.push_back(*hit);
     if (hit != hits.end() && hit->key == voxel.key)
     {
       ++hit;
-      voxel.seen = isBefore(time, voxel.seen) ? voxel.seen : time;
+      voxel.seen = isBefore(view.time, voxel.seen) ? voxel.seen : view.time;
+      voxel.received = view.received;
       voxel.evidence = std::min<std::uint8_t>(voxel.evidence + 1, kMaxEvidence);
     }
-    else if (options.decay > 0.0 && time - voxel.seen > options.decay)
+    else if (options.decay > 0.0 && view.received - voxel.received > options.decay)
       continue;
-    else if (!isBefore(time, voxel.seen) && is_seen_through(voxel))
+    else if (!isBefore(view.time, voxel.seen) && is_seen_through(voxel))
       --voxel.evidence;
     if (voxel.evidence > 0)
-      all.push_back(voxel);
+      known.push_back(voxel);
   }
-  all.insert(all.end(), hit, hits.end());
-  return all;
+  others.insert(others.end(), hit, hits.end());
+  hits = std::move(others);
+  return known;
 }
 
-void OccupancyMap::Impl::add(const Measurement& measurement, const SensorView& view, const PlanningScene& scene,
-                             const double* state, const std::set<std::string>& left_out)
+std::size_t OccupancyMap::Impl::add(const Measurement& measurement, const SensorView& view, const PlanningScene& scene,
+                                    const double* state, const std::set<std::string>& left_out)
 {
-  std::set<std::string> attached_now;
+  // An attached object counts as the robot: it moves, and voxels that it comes near must stay.
   std::set<std::string> objects = left_out;
   for (const AttachedObject& carried : scene.attached)
-  {
-    attached_now.insert(carried.object.id);
-    if (attached.count(carried.object.id) == 0)
-      objects.insert(carried.object.id);
-  }
+    objects.erase(carried.object.id);
   const Isometry3d sensor = nearestRigid(view.sensor, "the sensor's pose");
-  const auto near_bodies = [&](const std::vector<Voxel>& some)
-  { return bodies.near(grid, centersOf(some), scene, state, view.padding, objects); };
-  std::vector<Voxel> hits = hitVoxels(measurement, sensor, view.time);
-  removeFlagged(hits, near_bodies(hits));
-  std::vector<Voxel> all = merged(hits, measurement.views, sensor, view.time);
+  const auto near_bodies = [&](const auto& some)
+  { return bodies.near(grid, centresOf(some), scene, state, view.padding, objects); };
+
+  std::vector<Hit> hits = hitVoxels(measurement, sensor);
+  std::vector<std::uint8_t> flags = near_bodies(hits);
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    hits[i].may_be_robot = (flags[i] & kNearRobot) != 0;
+  removeFlagged(hits, flags, kNearObject);
+  std::vector<Voxel> known = takeKnown(hits, measurement, sensor, view);
   if (!objects.empty())
-    removeFlagged(all, near_bodies(all), kNearObject);
-  if (all.size() > options.max_voxels)
-    throw Error("the sensors have found " + std::to_string(all.size()) + " occupied voxels, but at most " +
-                std::to_string(options.max_voxels) + " are allowed; use larger voxels, a shorter range or a region");
-  voxels = std::move(all);
-  attached = std::move(attached_now);
+    removeFlagged(known, near_bodies(known), kNearObject);
+  hits.erase(std::remove_if(hits.begin(), hits.end(), [](const Hit& hit) { return hit.may_be_robot; }), hits.end());
+
+  // The nearest voxels come first, up to the bound.
+  const std::size_t room = options.max_voxels - std::min(options.max_voxels, known.size());
+  const std::size_t added = std::min(hits.size(), room);
+  if (added < hits.size())
+    std::nth_element(hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(added), hits.end(),
+                     [&](const Hit& a, const Hit& b)
+                     {
+                       return (grid.centreOf(a.key) - sensor.translation()).norm() <
+                              (grid.centreOf(b.key) - sensor.translation()).norm();
+                     });
+  for (std::size_t i = 0; i < added; ++i)
+    known.push_back({hits[i].key, view.time, view.received, 1});
+  const auto middle = known.end() - static_cast<std::ptrdiff_t>(added);
+  std::sort(middle, known.end(), hasSmallerKey);
+  std::inplace_merge(known.begin(), middle, known.end(), hasSmallerKey);
+  voxels = std::move(known);
+  return hits.size() - added;
 }
 
 OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
 {
-  requireMetres(options.resolution > 0.0, options.resolution, "the resolution");
-  requireMetres(options.decay >= 0.0, options.decay, "the decay");
+  if (!(options.resolution > 0.0) || !std::isfinite(options.resolution))
+    throw Error("sensors: the resolution is " + numberText(options.resolution) + " m; it must be finite and above 0");
+  if (!(options.decay >= 0.0) || !std::isfinite(options.decay))
+    throw Error("sensors: the decay is " + numberText(options.decay) + " s; it must be finite and not negative");
   if (options.region.isEmpty())
     throw Error("sensors: the region is empty; its first corner must have the smaller coordinates");
   impl_ = std::make_unique<Impl>(options);
@@ -173,34 +198,34 @@ OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
 
 OccupancyMap::~OccupancyMap() = default;
 
-void OccupancyMap::add(const DepthImage& image, const SensorView& view, const PlanningScene& scene, const double* state,
-                       const std::set<std::string>& left_out)
+std::size_t OccupancyMap::add(const DepthImage& image, const SensorView& view, const PlanningScene& scene,
+                              const double* state, const std::set<std::string>& left_out)
 {
   validateStates(*scene.robot, state, 1);
-  impl_->add(measurementOf(image, view), view, scene, state, left_out);
+  return impl_->add(measurementOf(image, view), view, scene, state, left_out);
 }
 
-void OccupancyMap::add(const std::vector<Vector3f>& points, const SensorView& view, const PlanningScene& scene,
-                       const double* state, const std::set<std::string>& left_out)
+std::size_t OccupancyMap::add(const std::vector<Vector3f>& points, const SensorView& view, const PlanningScene& scene,
+                              const double* state, const std::set<std::string>& left_out)
 {
   validateStates(*scene.robot, state, 1);
-  impl_->add(measurementOf(points, view), view, scene, state, left_out);
+  return impl_->add(measurementOf(points, view), view, scene, state, left_out);
 }
 
 void OccupancyMap::removeNear(const std::set<std::string>& objects, double padding, const PlanningScene& scene,
                               const double* state)
 {
   validateStates(*scene.robot, state, 1);
-  const std::vector<Vector3d> centers = impl_->centersOf(impl_->voxels);
-  removeFlagged(impl_->voxels, impl_->bodies.near(impl_->grid, centers, scene, state, padding, objects), kNearObject);
+  const std::vector<Vector3d> centres = impl_->centresOf(impl_->voxels);
+  removeFlagged(impl_->voxels, impl_->bodies.near(impl_->grid, centres, scene, state, padding, objects), kNearObject);
 }
 
 std::vector<PlacedShape> OccupancyMap::cubes(const PlanningScene& scene, const double* state)
 {
   validateStates(*scene.robot, state, 1);
-  std::vector<Vector3d> centers = impl_->centersOf(impl_->voxels);
-  removeFlagged(centers, impl_->bodies.near(impl_->grid, centers, scene, state, 0.0, {}), kNearRobot);
-  return impl_->grid.cubesAt(centers);
+  std::vector<Vector3d> centres = impl_->centresOf(impl_->voxels);
+  removeFlagged(centres, impl_->bodies.near(impl_->grid, centres, scene, state, 0.0, {}), kNearRobot);
+  return impl_->grid.cubesAt(centres);
 }
 
 std::size_t OccupancyMap::size() const

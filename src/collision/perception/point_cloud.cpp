@@ -67,14 +67,14 @@ WorldObject PointCloudFilter::objectOf(const std::string& id, const std::vector<
   if (voxels.size() > impl_->options.max_voxels)
     throw Error("the cloud fills " + std::to_string(voxels.size()) + " voxels, but at most " +
                 std::to_string(impl_->options.max_voxels) + " are allowed; use larger voxels or a shorter range");
-  std::vector<Vector3d> centers;
-  centers.reserve(voxels.size());
+  std::vector<Vector3d> centres;
+  centres.reserve(voxels.size());
   for (const std::uint64_t voxel : voxels)
-    centers.push_back(impl_->grid.centerOf(voxel));
-  removeFlagged(centers, impl_->bodies.near(impl_->grid, centers, scene, state, impl_->options.robot_padding, {}));
+    centres.push_back(impl_->grid.centreOf(voxel));
+  removeFlagged(centres, impl_->bodies.near(impl_->grid, centres, scene, state, impl_->options.robot_padding, {}));
   WorldObject object;
   object.id = id;
-  object.shapes = impl_->grid.cubesAt(centers);
+  object.shapes = impl_->grid.cubesAt(centres);
   return object;
 }
 }  // namespace gpu_planning_scene::core

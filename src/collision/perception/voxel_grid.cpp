@@ -28,25 +28,25 @@ std::uint64_t VoxelGrid::keyOf(const Vector3d& point) const
   return key;
 }
 
-Vector3d VoxelGrid::centerOf(std::uint64_t key) const
+Vector3d VoxelGrid::centreOf(std::uint64_t key) const
 {
-  Vector3d center;
+  Vector3d centre;
   for (const int axis : {0, 1, 2})
   {
     const auto index =
         static_cast<std::int64_t>(key >> (axis * kIndexBits) & ((std::uint64_t{1} << kIndexBits) - 1)) - kMaxIndex;
-    center[axis] = (static_cast<double>(index) + 0.5) * size_;
+    centre[axis] = (static_cast<double>(index) + 0.5) * size_;
   }
-  return center;
+  return centre;
 }
 
-std::vector<PlacedShape> VoxelGrid::cubesAt(const std::vector<Vector3d>& centers) const
+std::vector<PlacedShape> VoxelGrid::cubesAt(const std::vector<Vector3d>& centres) const
 {
   const Shape cube = Box{Vector3d::Constant(size_)};
   std::vector<PlacedShape> cubes;
-  cubes.reserve(centers.size());
-  for (const Vector3d& center : centers)
-    cubes.push_back({cube, Eigen::Isometry3d(Eigen::Translation3d(center))});
+  cubes.reserve(centres.size());
+  for (const Vector3d& centre : centres)
+    cubes.push_back({cube, Eigen::Isometry3d(Eigen::Translation3d(centre))});
   return cubes;
 }
 

@@ -21,9 +21,9 @@ class VoxelGrid
   double size() const { return size_; }
   /// The voxel that contains a point of the planning frame. Throws Error for a point that is too far from the origin.
   std::uint64_t keyOf(const Eigen::Vector3d& point) const;
-  Eigen::Vector3d centerOf(std::uint64_t key) const;
-  /// A cube around each center, in the planning frame.
-  std::vector<PlacedShape> cubesAt(const std::vector<Eigen::Vector3d>& centers) const;
+  Eigen::Vector3d centreOf(std::uint64_t key) const;
+  /// A cube around each centre, in the planning frame.
+  std::vector<PlacedShape> cubesAt(const std::vector<Eigen::Vector3d>& centres) const;
 
  private:
   double size_;

@@ -1,5 +1,6 @@
 #include "node/messages/sensor_messages.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -91,6 +92,9 @@ PinholeCamera cameraOf(const sensor_msgs::CameraInfo& info)
   PinholeCamera camera;
   camera.width = static_cast<int>(info.width);
   camera.height = static_cast<int>(info.height);
+  const bool is_distorted = std::any_of(info.D.begin(), info.D.end(), [](double value) { return value != 0.0; });
+  if (is_distorted && !(info.P[0] > 0.0))
+    throw Error("camera_info has distortion, but no projection matrix P; send rectified images with their camera_info");
   const bool is_rectified = info.P[0] > 0.0;  // P has rows of four numbers, K of three
   camera.fx = is_rectified ? info.P[0] : info.K[0];
   camera.cx = is_rectified ? info.P[2] : info.K[2];

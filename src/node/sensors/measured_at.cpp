@@ -6,6 +6,8 @@ namespace gpu_planning_scene::core
 {
 MeasuredAt measuredAt(const std_msgs::Header& header, const SceneStore& store, const SceneStore::Lookup& lookup)
 {
+  if (header.frame_id.empty())
+    throw Error("header.frame_id is empty; name the frame of the sensor");
   MeasuredAt measured;
   measured.now = store.snapshot();
   if (!measured.now.allKnown())

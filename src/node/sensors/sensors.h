@@ -22,14 +22,17 @@ namespace gpu_planning_scene::core
 {
 /// Keeps the octomap of the scene (kOctomapId) from the measurements of depth cameras and scanners. One thread takes
 /// the newest measurement of each sensor in turn, beside the checks. A measurement that a newer one replaces before its
-/// turn is dropped and counted. Thread-safe.
+/// turn is dropped and counted. A measurement whose frame tf does not know yet waits, and the other sensors go on.
+/// Publishes a status for each sensor on /diagnostics. Thread-safe.
 class Sensors
 {
  public:
-  /// Subscribes to the topics of the sensors, and reserves the octomap (SceneStore::reserveOctomap). All arguments
-  /// passed by reference must outlive this object. Throws Error if the scene already has an octomap.
-  Sensors(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneStore& store, SceneStore::Lookup lookup,
-          const MemoryGuard& memory, Diagnostics& diagnostics, const SensorsOptions& options);
+  /// Subscribes to the topics of the sensors, and reserves the octomap (SceneStore::reserveOctomap). `find_frame` must
+  /// not wait: it throws NotKnownYet for a frame that may come. `frame_timeout`: seconds that a measurement waits for
+  /// its frame. All arguments passed by reference must outlive this object. Throws Error if the scene already has an
+  /// octomap.
+  Sensors(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneStore& store, SceneStore::Lookup find_frame,
+          double frame_timeout, const MemoryGuard& memory, Diagnostics& diagnostics, const SensorsOptions& options);
   /// Calls stop().
   ~Sensors();
 
@@ -37,9 +40,6 @@ class Sensors
   ExcludeFromSensors::Response exclude(const ExcludeFromSensors::Request& request);
   /// Forgets all voxels.
   Clear::Response clear();
-
-  /// A status for each sensor: WARN if it has not sent a measurement for a second.
-  std::vector<diagnostic_msgs::DiagnosticStatus> statuses();
 
   /// From now on, measurements are rejected.
   void close() { topics_.close(); }
@@ -49,35 +49,49 @@ class Sensors
  private:
   using Message = std::variant<sensor_msgs::Image, sensor_msgs::PointCloud2>;
 
-  /// A sensor, guarded by waiting_mutex_.
+  struct Measured
+  {
+    Message message;
+    ros::SteadyTime received;
+  };
+
+  /// A sensor. waiting_mutex_ guards all but `current`, which belongs to the thread.
   struct Sensor
   {
     SensorOptions options;
     std::optional<PinholeCamera> camera;  // of images
-    std::optional<Message> waiting;
-    ros::Time newest;        // stamp of the newest measurement that max_rate lets through
-    ros::WallTime received;  // zero: none
+    std::optional<Measured> waiting;
+    std::optional<Measured> current;  // is used now, or waits for its frame
+    ros::SteadyTime accepted;         // arrival of the newest measurement that max_rate lets through
+    ros::SteadyTime used_at;          // zero: none was used
     std::uint64_t used = 0;
     std::uint64_t dropped = 0;
-    std::uint64_t refused = 0;
+    std::uint64_t rejected = 0;
+    std::string fault;         // of the last measurement; empty if it was used
     double lag = 0.0;          // seconds from the stamp of the last measurement to the scene with it
     double longest_lag = 0.0;  // since the last status
   };
 
   void receive(Sensor& sensor, Message message);
   void run();
-  void use(const SensorOptions& options, const std::optional<PinholeCamera>& camera, const Message& message);
+  bool take(Sensor& sensor);
+  void use(const Sensor& sensor);
+  void forgetOldNames(const PlanningScene& scene, const std::vector<double>& state);
   std::uint64_t publish();
   void republish();
+  double largestPadding() const;
+  void publishStatus();
 
   SceneStore& store_;
-  const SceneStore::Lookup lookup_;
+  const SceneStore::Lookup find_frame_;
+  const double frame_timeout_;
   const MemoryGuard& memory_;
 
-  std::mutex map_mutex_;  // guards the next three members
+  std::mutex map_mutex_;  // guards the next four members
   OccupancyMap map_;
   std::set<std::string> excluded_;
-  bool hides_voxels_ = false;  // voxels that the robot touches are not in the scene
+  std::set<std::string> attached_;  // objects whose voxels were removed when they were attached
+  bool hides_voxels_ = false;       // voxels that the robot touches are not in the scene
 
   std::mutex waiting_mutex_;
   std::condition_variable arrived_;

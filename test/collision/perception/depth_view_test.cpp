@@ -1,4 +1,4 @@
-// DepthView sees behind a ball exactly if no ray near the ball ends before the ball's far side.
+// DepthView never sees behind a ball if a ray through the ball ends before the ball's far side.
 
 #include <cmath>
 #include <random>
@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-/// The number of rays that pass within `radius` of the ball's center and end in front of its far side, pixel by pixel.
-int endsNear(const PinholeCamera& camera, const std::vector<float>& depths, const Vector3d& center, double radius)
+/// The number of rays that pass within `radius` of the ball's centre and end in front of its far side, pixel by pixel.
+int endsNear(const PinholeCamera& camera, const std::vector<float>& depths, const Vector3d& centre, double radius)
 {
   int count = 0;
   for (int y = 0; y < camera.height; ++y)
@@ -24,7 +24,7 @@ int endsNear(const PinholeCamera& camera, const std::vector<float>& depths, cons
     {
       const auto depth = static_cast<double>(depths[static_cast<std::size_t>(y * camera.width + x)]);
       const Vector3d ray = Vector3d((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0).normalized();
-      if (depth < center.z() + radius && (center - center.dot(ray) * ray).norm() < radius)
+      if (depth < centre.z() + radius && (centre - centre.dot(ray) * ray).norm() < radius)
         ++count;
     }
   return count;
@@ -51,16 +51,16 @@ TEST(DepthView, NeverSeesBehindABallInFrontOfWhichARayEnds)
     for (int i = 0; i < 20; ++i)
     {
       const double z = 1.6 + 1.4 * unit(generator);
-      const Vector3d center(0.8 * z * unit(generator), 0.5 * z * unit(generator), z);
+      const Vector3d centre(0.8 * z * unit(generator), 0.5 * z * unit(generator), z);
       const double radius = 0.3 * std::abs(unit(generator));
-      const int nearer = endsNear(camera, depths, center, radius);
-      if (!view.seesBehind(center, radius))
+      const int nearer = endsNear(camera, depths, centre, radius);
+      if (!view.seesBehind(centre, radius))
       {
         refuted += nearer > 0 ? 1 : 0;
         continue;
       }
       ++seen;
-      EXPECT_EQ(0, nearer) << center.transpose() << ", radius " << radius;
+      EXPECT_EQ(0, nearer) << centre.transpose() << ", radius " << radius;
     }
   }
   EXPECT_GT(seen, 500);
@@ -81,6 +81,21 @@ TEST(DepthView, SeesBehindBallsThatAreWellInFrontOfAWall)
   EXPECT_FALSE(view.seesBehind({0.0, 0.0, 0.03}, 0.05)) << "around the camera";
   EXPECT_FALSE(DepthView(camera, std::vector<float>(64 * 48, kInfinite)).seesBehind({0.0, 0.0, 1.0}, 0.05))
       << "no ray is measured";
+}
+
+TEST(DepthView, DoesNotSeeBehindABallBesideANearerSurface)
+{
+  // The ball is between the columns 30 and 33. The surface ends at a column to the left.
+  const PinholeCamera camera{64, 48, 60.0, 60.0, 31.5, 23.5};
+  const auto sees = [&](int last_column)
+  {
+    std::vector<float> depths(64 * 48, 5.0F);
+    for (int y = 0; y < 48; ++y)
+      std::fill_n(depths.begin() + 64 * y, last_column + 1, 0.5F);
+    return DepthView(camera, depths).seesBehind({0.0, 0.0, 2.0}, 0.04);
+  };
+  EXPECT_FALSE(sees(29)) << "one pixel beside it";
+  EXPECT_TRUE(sees(27));
 }
 
 TEST(DepthView, DoesNotSeeThroughAFloorAtAGrazingAngle)

@@ -26,25 +26,16 @@ using Eigen::Vector3f;
 constexpr double kResolution = 0.04;
 const PinholeCamera kCamera{320, 240, 280.0, 280.0, 159.5, 119.5};
 
-WorldObject boxAt(const std::string& id, const Vector3d& center, const Vector3d& size)
-{
-  return {id, Isometry3d(Eigen::Translation3d(center)), {{Box{size}}}};
-}
-
 /// Metres: the distance of a point from the surfaces of the boxes of the world.
 double distanceFromWorld(const PlanningScene& scene, const Vector3d& point)
 {
   double nearest = std::numeric_limits<double>::infinity();
   for (const WorldObject& object : scene.objects)
-  {
-    const Vector3d half = 0.5 * std::get<Box>(object.shapes.at(0).shape).size;
-    const Vector3d beyond = (object.pose.inverse() * point).cwiseAbs() - half;
-    nearest = std::min(nearest, std::abs(beyond.cwiseMax(0.0).norm() + std::min(beyond.maxCoeff(), 0.0)));
-  }
+    nearest = std::min(nearest, distanceFromSurface(object, point));
   return nearest;
 }
 
-/// Metres: the largest difference of a coordinate between a point and the nearest center of a cube.
+/// Metres: the largest difference of a coordinate between a point and the nearest centre of a cube.
 double distanceFromCubes(const std::vector<PlacedShape>& cubes, const Vector3d& point)
 {
   double nearest = std::numeric_limits<double>::infinity();
@@ -92,10 +83,10 @@ class Cell
       moveOn();
       const Isometry3d pose = cameraPose(eye, {0.2, 0.0, 0.4});
       DepthImage image = depthImageOf(truth_, state_.data(), kCamera, pose);
-      addNoise(image, {0.001, 0.02}, generator_);
+      addNoise(image, {0.001, 0.005}, generator_);
       PlanningScene known(truth_.robot);  // the node does not know the world
       known.attached = truth_.attached;
-      map.add(image, {pose, time_}, known, state_.data());
+      map.add(image, {pose, time_, time_}, known, state_.data());
     }
   }
 
@@ -205,13 +196,14 @@ class OccupancyMapOfACamera : public testing::Test
   }
 
   /// All pixels have this depth, except those of the middle quarter.
-  void see(OccupancyMap& map, float depth, float middle)
+  std::size_t see(OccupancyMap& map, float depth, float middle)
   {
     DepthImage image{{64, 48, 60.0, 60.0, 31.5, 23.5}, std::vector<float>(64 * 48, depth)};
     for (std::size_t y = 12; y < 36; ++y)
       std::fill_n(image.depths.begin() + static_cast<std::ptrdiff_t>(64 * y + 16), 32, middle);
     view_.time += 1.0;
-    map.add(image, view_, scene_, state_.data(), left_out_);
+    view_.received += 1.0;
+    return map.add(image, view_, scene_, state_.data(), left_out_);
   }
 
   bool isOccupied(OccupancyMap& map, const Vector3d& point)
@@ -252,9 +244,10 @@ TEST_F(OccupancyMapOfACamera, KeepsVoxelsThatItDoesNotSee)
   for (int i = 0; i < 5; ++i)
     see(map, 4.05F, 2.05F);
   EXPECT_TRUE(isOccupied(map, {3.05, 0.05, 0.05})) << "hidden by a nearer surface";
+  const std::size_t before = map.size();
   for (int i = 0; i < 5; ++i)
     see(map, 4.05F, kNaN);
-  EXPECT_TRUE(isOccupied(map, {2.05, 0.05, 0.05})) << "in a patch that is not measured";
+  EXPECT_EQ(before, map.size()) << "in a patch that is not measured, and at its border";
   for (int i = 0; i < 5; ++i)
     see(map, 4.05F, -1.0F);
   EXPECT_TRUE(isOccupied(map, {2.05, 0.05, 0.05})) << "behind a thing that is too close";
@@ -347,8 +340,7 @@ TEST_F(OccupancyMapOfACamera, LeavesOutNamedObjectsAndAnObjectThatIsAttached)
   ASSERT_TRUE(isOccupied(map, {2.05, 0.05, 0.05}));
   scene_.attached.push_back({scene_.objects[0], 0});
   scene_.objects.clear();
-  see(map, 4.05F, 2.05F);
-  EXPECT_FALSE(isOccupied(map, {2.05, 0.05, 0.05}));
+  map.removeNear({"part"}, view_.padding, scene_, state_.data());
   scene_.attached[0].object.pose.translation().x() = 50.0;
   EXPECT_FALSE(isOccupied(map, {2.05, 0.05, 0.05})) << "its voxels do not stay behind when it is carried away";
 
@@ -358,18 +350,41 @@ TEST_F(OccupancyMapOfACamera, LeavesOutNamedObjectsAndAnObjectThatIsAttached)
   EXPECT_NE(errorOf([&] { see(map, 4.05F, 2.05F); }).find("'floor' has a half-space"), std::string::npos);
 }
 
-TEST_F(OccupancyMapOfACamera, OfTooManyVoxelsStaysAsItIs)
+TEST_F(OccupancyMapOfACamera, KeepsVoxelsThatACarriedObjectComesNearEvenIfItIsNamed)
+{
+  OccupancyMap map(options_);
+  see(map, 4.05F, 2.05F);
+  scene_.attached.push_back({boxAt("part", {1.7, 0.0, 0.0}, {0.5, 1.0, 1.0}), 0});  // 5 cm before the voxels
+  left_out_ = {"part"};
+  view_.padding = 0.1;
+  see(map, 4.05F, 1.45F);
+  EXPECT_TRUE(isOccupied(map, {2.05, 0.05, 0.05}));
+  EXPECT_FALSE(isOccupied(map, {1.45, 0.05, 0.05})) << "a point of the part";
+}
+
+TEST_F(OccupancyMapOfACamera, DoesNotForgetAnObstacleThatIsMeasuredBesideTheRobot)
+{
+  options_.decay = 5.0;
+  OccupancyMap map(options_);
+  see(map, 4.05F, 2.05F);
+  placeTip({1.48, 0.0, 0.0});  // its front is at 1.98, and the voxels begin at 2.0
+  for (int i = 0; i < 20; ++i)
+    see(map, 4.05F, 2.05F);
+  EXPECT_TRUE(isOccupied(map, {2.05, 0.05, 0.05}));
+}
+
+TEST_F(OccupancyMapOfACamera, TakesTheNearestVoxelsWhenThereIsNoRoomForAll)
 {
   options_.max_voxels = 700;
   OccupancyMap map(options_);
-  see(map, 2.05F, 2.05F);
+  EXPECT_EQ(0u, see(map, 2.05F, 2.05F));
   const std::size_t before = map.size();
-  const std::string error = errorOf([&] { see(map, 4.05F, 4.05F); });
-  EXPECT_NE(error.find("at most 700 are allowed"), std::string::npos) << error;
-  EXPECT_EQ(before, map.size());
-  EXPECT_TRUE(isOccupied(map, {2.05, 0.05, 0.05}));
-  map.clear();
-  EXPECT_EQ(0u, map.size());
+  EXPECT_GT(see(map, 4.05F, 1.05F), 0u);
+  EXPECT_EQ(700u, map.size());
+  EXPECT_TRUE(isOccupied(map, {1.05, 0.05, 0.05})) << "a new obstacle near the camera";
+  EXPECT_LT(before, 700u);
+  see(map, 20.0F, 20.0F);
+  EXPECT_EQ(0u, map.size()) << "there is room again";
 }
 
 TEST_F(OccupancyMapOfACamera, RefusesWrongArguments)
@@ -390,6 +405,42 @@ TEST_F(OccupancyMapOfACamera, RefusesWrongArguments)
   }
   options_.region = {Vector3d(1.0, 0.0, 0.0), Vector3d(0.0, 1.0, 1.0)};
   EXPECT_THROW(OccupancyMap{options_}, Error);
+}
+
+TEST_F(OccupancyMapOfACamera, KeepsAThinThingThatItCannotMeasure)
+{
+  // A pole is measured once. Afterwards, its column of pixels has no depth.
+  OccupancyMap map(options_);
+  DepthImage image{{64, 48, 60.0, 60.0, 31.5, 23.5}, std::vector<float>(64 * 48, 4.05F)};
+  const auto set_column = [&](float depth)
+  {
+    for (std::size_t y = 0; y < 48; ++y)
+      image.depths[64 * y + 30] = depth;
+  };
+  set_column(2.05F);
+  map.add(image, view_, scene_, state_.data());
+  const std::size_t before = map.size();
+  set_column(kNaN);
+  for (int i = 0; i < 5; ++i)
+    map.add(image, view_, scene_, state_.data());
+  EXPECT_EQ(before, map.size());
+}
+
+TEST_F(OccupancyMapOfACamera, KeepsAVoxelBetweenTheRowsOfAScanner)
+{
+  // Rows of points 2 degrees apart pass above and below a small voxel.
+  options_.resolution = 0.02;
+  OccupancyMap map(options_);
+  view_.sensor = at(0.0, 0.0, 0.0);
+  map.add(std::vector<Vector3f>{{3.0F, 0.05F, 0.06F}}, view_, scene_, state_.data());
+  ASSERT_EQ(1u, map.size());
+  std::vector<Vector3f> rows;
+  for (const float degrees : {-1.0F, 0.0F, 1.7F})
+    for (int i = -200; i <= 200; ++i)
+      rows.push_back(8.0F * Vector3f(1.0F, 0.001F * static_cast<float>(i), std::tan(degrees * 0.0174533F)));
+  for (int i = 0; i < 5; ++i)
+    map.add(rows, view_, scene_, state_.data());
+  EXPECT_TRUE(isOccupied(map, {3.01, 0.05, 0.07}));
 }
 
 TEST_F(OccupancyMapOfACamera, TakesCloudsFromAllDirections)

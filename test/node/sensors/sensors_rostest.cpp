@@ -2,10 +2,12 @@
 
 #include <cstring>
 #include <limits>
+#include <optional>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
+#include <sensor_msgs/JointState.h>
 #include <sensor_msgs/PointCloud2.h>
 
 #include "gpu_planning_scene/error.h"
@@ -82,7 +84,7 @@ class SensorsOfANode : public RunningNode
     const DepthImage seen = depthImageOf(*truth_, state_.data(), kCamera, camera_);
     sensor_msgs::Image image;
     image.header.frame_id = "camera";
-    image.header.stamp = ros::Time::now();
+    image.header.stamp = stamp_.value_or(ros::Time::now());
     image.width = static_cast<std::uint32_t>(kCamera.width);
     image.height = static_cast<std::uint32_t>(kCamera.height);
     image.encoding = encoding_;
@@ -118,9 +120,26 @@ class SensorsOfANode : public RunningNode
         });
   }
 
-  void addToTruth(const std::string& id, const Vector3d& center, double size)
+  /// A cloud of the scanner without points.
+  static sensor_msgs::PointCloud2 emptyCloud()
   {
-    truth_->objects.push_back({id, Eigen::Isometry3d(Eigen::Translation3d(center)), {{Box{Vector3d::Constant(size)}}}});
+    sensor_msgs::PointCloud2 cloud;
+    cloud.header.frame_id = "scanner";
+    cloud.height = 1;
+    cloud.point_step = 12;
+    for (const char* axis : {"x", "y", "z"})
+    {
+      cloud.fields.emplace_back();
+      cloud.fields.back().name = axis;
+      cloud.fields.back().offset = static_cast<std::uint32_t>(4 * (cloud.fields.size() - 1));
+      cloud.fields.back().datatype = sensor_msgs::PointField::FLOAT32;
+    }
+    return cloud;
+  }
+
+  void addToTruth(const std::string& id, const Vector3d& centre, double size)
+  {
+    truth_->objects.push_back({id, Eigen::Isometry3d(Eigen::Translation3d(centre)), {{Box{Vector3d::Constant(size)}}}});
   }
 
   static std::vector<PlacedShape> octomap()
@@ -129,7 +148,7 @@ class SensorsOfANode : public RunningNode
     return occupiedLeaves({map.octomap.id, map.octomap.binary != 0, map.octomap.resolution, map.octomap.data}, 1000000);
   }
 
-  /// The number of voxels whose centers are at most `distance` from a point.
+  /// The number of voxels whose centres are at most `distance` from a point.
   static std::size_t voxelsNear(const Vector3d& point, double distance)
   {
     std::size_t count = 0;
@@ -149,8 +168,12 @@ class SensorsOfANode : public RunningNode
   void take(const diagnostic_msgs::DiagnosticArray& message)
   {
     for (const auto& status : message.status)
+    {
+      const std::string topic = status.name.substr(status.name.rfind(' ') + 1);
+      levels_[topic] = static_cast<std::uint8_t>(status.level);
       for (const auto& value : status.values)
-        values_[status.name.substr(status.name.rfind(' ') + 1) + " " + value.key] = value.value;
+        values_[topic + " " + value.key] = value.value;
+    }
   }
 
   ros::NodeHandle node_;
@@ -161,7 +184,9 @@ class SensorsOfANode : public RunningNode
   std::map<std::string, std::string> values_;
   std::unique_ptr<PlanningScene> truth_;
   Eigen::Isometry3d camera_;
-  std::vector<double> state_ = free_state;  // of the robot before the camera
+  std::vector<double> state_ = free_state;      // of the robot before the camera
+  std::optional<ros::Time> stamp_;              // of the images; no value: now
+  std::map<std::string, std::uint8_t> levels_;  // of the sensors' statuses
   std::string encoding_ = "32FC1";
 };
 
@@ -225,7 +250,15 @@ TEST_F(SensorsOfANode, NoMessageTakesTheirOctomapAway)
   const std::size_t voxels = octomap().size();
   PlanningSceneMessage own = diffScene();
   own.world.octomap = scene().world.octomap;
-  expectRefusal(own, "the octomap comes from this node's sensors");
+  own.world.octomap.octomap.data.clear();
+  own.world.collision_objects.push_back(boxObject("beside", farAway(), 0.1));
+  ApplyPlanningScene::Request request;
+  request.scene = own;
+  const auto answer = call<ApplyPlanningScene>("apply_planning_scene", request);
+  EXPECT_TRUE(answer.success);
+  EXPECT_NE(std::string::npos, answer.message.find("the octomap stays as it is")) << answer.message;
+  EXPECT_EQ(1u, scene().world.collision_objects.size()) << "the rest of the change is made";
+  EXPECT_EQ(voxels, octomap().size());
   PlanningSceneMessage remove = diffScene();
   remove.world.octomap.octomap.id = "cleared";
   apply(remove);
@@ -267,19 +300,9 @@ TEST_F(SensorsOfANode, AVoxelThatTheRobotTouchedComesBackWithoutAMeasurement)
 
 TEST_F(SensorsOfANode, CloudsOfAScannerAreInTheSameMap)
 {
-  sensor_msgs::PointCloud2 cloud;
-  cloud.header.frame_id = "scanner";
-  cloud.height = 1;
+  sensor_msgs::PointCloud2 cloud = emptyCloud();
   cloud.width = 1000;
-  cloud.point_step = 12;
   cloud.row_step = 12000;
-  for (const char* axis : {"x", "y", "z"})
-  {
-    cloud.fields.emplace_back();
-    cloud.fields.back().name = axis;
-    cloud.fields.back().offset = static_cast<std::uint32_t>(4 * (cloud.fields.size() - 1));
-    cloud.fields.back().datatype = sensor_msgs::PointField::FLOAT32;
-  }
   std::vector<float> points;
   for (int i = 0; i < 1000; ++i)
     points.insert(points.end(), {2.0F, 0.001F * static_cast<float>(i), 0.0F});
@@ -301,16 +324,85 @@ TEST_F(SensorsOfANode, CloudsOfAScannerAreInTheSameMap)
 TEST_F(SensorsOfANode, WrongMeasurementsAreCountedAndChangeNothing)
 {
   const std::string topic = "/camera/depth/image_rect";
-  ASSERT_TRUE(becomes([&] { return !statusOf(topic, "refused").empty(); }));
-  const int before = std::stoi(statusOf(topic, "refused"));
+  ASSERT_TRUE(becomes([&] { return !statusOf(topic, "rejected").empty(); }));
+  const int before = std::stoi(statusOf(topic, "rejected"));
   const std::uint64_t revision = scene().scene_revision;
   encoding_ = "rgb8";
-  EXPECT_TRUE(seesUntil([&] { return std::stoi(statusOf(topic, "refused")) > before; }));
+  EXPECT_TRUE(seesUntil([&] { return std::stoi(statusOf(topic, "rejected")) > before; }));
   EXPECT_EQ(revision, scene().scene_revision);
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::ERROR, levels_[topic]) << "the octomap does not follow the camera";
   encoding_ = "32FC1";
   const int used = std::stoi(statusOf(topic, "used"));
   EXPECT_TRUE(seesUntil([&] { return std::stoi(statusOf(topic, "used")) > used; }));
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::OK, levels_[topic]);
   EXPECT_LT(std::stod(statusOf(topic, "lag")), 1.0);
+  EXPECT_TRUE(becomes(
+      [&] { return !statusOf(topic, "used").empty() && levels_[topic] == diagnostic_msgs::DiagnosticStatus::WARN; }))
+      << "the camera is silent";
+}
+
+TEST_F(SensorsOfANode, NoStampEndsTheNode)
+{
+  const std::string topic = "/camera/depth/image_rect";
+  ASSERT_TRUE(becomes([&] { return !statusOf(topic, "rejected").empty(); }));
+  const int before = std::stoi(statusOf(topic, "rejected"));
+  const int used = std::stoi(statusOf(topic, "used"));
+  for (const ros::Time& stamp : {ros::Time(4294967295U, 999999999U), ros::Time(1, 0), ros::Time()})
+  {
+    stamp_ = stamp;
+    see();
+    ros::WallDuration(0.3).sleep();
+  }
+  EXPECT_TRUE(becomes(
+      [&] {
+        return std::stoi(statusOf(topic, "rejected")) == before + 1 && std::stoi(statusOf(topic, "used")) >= used + 2;
+      }))
+      << statusOf(topic, "rejected") << " " << statusOf(topic, "used");
+  EXPECT_TRUE(isFree());
+}
+
+TEST_F(SensorsOfANode, ASensorWithoutAFrameDoesNotHoldUpTheOthers)
+{
+  const std::string topic = "/camera/depth/image_rect";
+  ASSERT_TRUE(becomes([&] { return !statusOf(topic, "dropped").empty(); }));
+  const int dropped = std::stoi(statusOf(topic, "dropped"));
+  const int used = std::stoi(statusOf(topic, "used"));
+  sensor_msgs::PointCloud2 cloud = emptyCloud();
+  cloud.header.frame_id = "unknown";
+  for (int i = 0; i < 20; ++i)
+  {
+    cloud.header.stamp = ros::Time::now();
+    clouds_.publish(cloud);
+    see();
+    ros::WallDuration(0.1).sleep();
+  }
+  EXPECT_TRUE(becomes([&] { return std::stoi(statusOf(topic, "used")) >= used + 18; })) << statusOf(topic, "used");
+  EXPECT_LE(std::stoi(statusOf(topic, "dropped")), dropped + 2);
+}
+
+TEST_F(SensorsOfANode, TheRobotOfTheTimeOfAnImageIsLeftOut)
+{
+  // Only the robot is in the image. When the image arrives, the robot is elsewhere.
+  ros::Publisher states = node_.advertise<sensor_msgs::JointState>("/joint_states", 10);
+  ASSERT_TRUE(becomes([&] { return states.getNumSubscribers() > 0; }));
+  sensor_msgs::JointState joints;
+  joints.name = stateRequest(free_state).joint_names;
+  joints.position = free_state;
+  joints.header.stamp = ros::Time::now();
+  states.publish(joints);
+  stamp_ = joints.header.stamp;
+  std::vector<double> turned = free_state;
+  turned[0] += 1.2;
+  joints.position = turned;
+  joints.header.stamp += ros::Duration(0.3);
+  states.publish(joints);
+  ASSERT_TRUE(becomes([&] { return scene().robot_state.joint_state.position.at(0) == turned[0]; }));
+  const std::string topic = "/camera/depth/image_rect";
+  ASSERT_TRUE(becomes([&] { return !statusOf(topic, "used").empty(); }));
+  const int used = std::stoi(statusOf(topic, "used"));
+  see();
+  EXPECT_TRUE(becomes([&] { return std::stoi(statusOf(topic, "used")) > used; }));
+  EXPECT_EQ(0u, octomap().size());
 }
 
 /// The error of sensorsFromParameters with this list of sensors and this value of another parameter.
