@@ -469,7 +469,7 @@ void Simulator::startGroup(std::uint32_t number, std::uint32_t columns, std::uin
       idle_.push_back(std::make_unique<Fiber>());
     std::unique_ptr<Fiber> fiber = std::move(idle_.back());
     idle_.pop_back();
-    fiber->lane = {i, {number % columns, number / columns, 0}, {columns, rows, 1}, false, {}};
+    fiber->lane = {i, {number % columns, number / columns, 0}, {columns, rows, 1}, false};
     fiber->group = group.get();
     fiber->main = program_->main;
     fiber->finished = false;
