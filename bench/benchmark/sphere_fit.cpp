@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kSamples = 2048;
 constexpr std::size_t kCandidates = 512;
-constexpr int kHalvings = 14;
+constexpr int kHalvingsOfBall = 14;
 using Covered = std::bitset<kSamples>;
 
 struct Sample
@@ -122,7 +122,7 @@ std::vector<Ball> fitBalls(const Mesh& mesh, std::size_t count)
   const std::vector<Candidate> candidates = innerBalls(samples, size);
   double too_little = 0.0;
   double enough = 4.0 * size;  // a single candidate then covers all samples
-  for (int i = 0; i < kHalvings; ++i)
+  for (int i = 0; i < kHalvingsOfBall; ++i)
   {
     const double middle = 0.5 * (too_little + enough);
     (cover(candidates, samples, middle, count).empty() ? too_little : enough) = middle;

@@ -103,7 +103,7 @@ int main(int argc, char** argv)
         {"--cases", "N", "number of cases of each family (default 2048)"},
         {"--proofs", "N", "number of cases of each family that are checked with proofs (balls) too (default: 1 in 32)"},
         {"--family", "TEXT", "only families whose name contains TEXT"},
-        {"--markdown", "FILE", "writes the table to FILE instead of printing it; scripts/stability_chart draws it"},
+        {"--markdown", "FILE", "writes the table to FILE instead of printing it"},
         {"--device", "D", "auto (default), software, an index, or part of a renderer's name"},
         {"--shaders", "DIR", "a folder of shaders instead of the installed one"}},
        runStability},

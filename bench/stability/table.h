@@ -71,6 +71,6 @@ struct Run
   std::string device;
 };
 
-/// Writes the conditions of the run, then the table. scripts/stability_chart draws it.
+/// Writes the conditions of the run, then the table.
 void writeMarkdown(std::ostream& out, const Run& run, const std::vector<Row>& rows);
 }  // namespace gpu_planning_scene::core::stability

@@ -12,7 +12,7 @@ say_progress()
 
 # configure_and_build FOLDER [--target TARGET] CMAKE_OPTIONS...: shows the output only after a failure. With --target,
 # builds only this target. The headers of FCL, OMPL and ROS take most of the time to compile, so the libraries are a
-# unity build: it reads each header once for twelve files. ccache is used where it is installed. Programs are not linked
+# unity build: it reads each header once for twenty files. ccache is used where it is installed. Programs are not linked
 # again if only a shared library has changed.
 configure_and_build()
 {
@@ -27,7 +27,7 @@ configure_and_build()
   export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros}"
   use_build_folder "$folder"
   if ! run cmake -S "$repository" -B "$folder" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 \
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=12 -DCMAKE_LINK_DEPENDS_NO_SHARED=ON \
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=20 -DCMAKE_LINK_DEPENDS_NO_SHARED=ON \
     -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" "$@" > "$log" 2>&1; then
     tail -40 "$log" >&2
     die "CMake could not configure the package (above; all of it in ${log#"$repository"/})"

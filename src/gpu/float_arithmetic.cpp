@@ -25,7 +25,7 @@ namespace
 constexpr std::size_t kCases = 4096;
 
 // Of self_test/double_size.comp. A multiplication and an addition add 8 to 16 bytes to a program of Mesa's drivers, and
-// 8,600 where they are emulated (scripts/gpu_compilers). Their compilation takes less than 1 ms, or else over 30 ms.
+// 8,600 where they are emulated (docs/gpu.md). Their compilation takes less than 1 ms, or else over 30 ms.
 constexpr int kMultiplyAdds = 4;
 constexpr std::size_t kEmulatedBytes = 1000;
 constexpr double kEmulatedSeconds = 0.005;

@@ -30,7 +30,7 @@ std::string number(double value, int digits = 6)
 }
 
 /// The value with enough digits to differ from the variable's limits.
-std::string valueOf(const Variable& variable, double value)
+std::string shownValue(const Variable& variable, double value)
 {
   const std::string rounded = number(value);
   const bool is_like_limit = rounded == number(variable.lower) || rounded == number(variable.upper);
@@ -145,7 +145,7 @@ std::string ValuesOutsideLimits::text() const
   const auto variable = [this](int index) -> const Variable&
   { return robot_.variables()[static_cast<std::size_t>(index)]; };
   const Variable& first = variable(first_variable_);
-  std::string line = "joint '" + first.name + "' is " + valueOf(first, first_value_) + ", " +
+  std::string line = "joint '" + first.name + "' is " + shownValue(first, first_value_) + ", " +
                      rangeText(robot_, first_variable_, first_value_);
   if (in_degrees_)
     line += "; values are in radians, and " +

@@ -30,7 +30,7 @@ TEST(ParallelFor, DoesEachItemOnce)
 
 /// Does 64 chunks of one item. Those for which `throws` is true throw an exception. Returns its text.
 template <class Throws>
-std::string errorOf(Throws throws, std::size_t* calls = nullptr)
+std::string errorOfCalls(Throws throws, std::size_t* calls = nullptr)
 {
   std::atomic<std::size_t> count{0};
   std::string text;
@@ -60,7 +60,7 @@ TEST(ParallelFor, ThrowsTheExceptionOfAThreadAgainInTheCaller)
     GTEST_SKIP() << "needs two cores";
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<bool> thrown{false};
-  const std::string text = errorOf(
+  const std::string text = errorOfCalls(
       [&]
       {
         if (std::this_thread::get_id() != caller)
@@ -79,7 +79,7 @@ TEST(ParallelFor, JoinsItsThreadsBeforeItThrowsTheExceptionOfTheCaller)
 {
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<int> running{0};
-  const std::string text = errorOf(
+  const std::string text = errorOfCalls(
       [&]
       {
         if (std::this_thread::get_id() == caller)
@@ -96,7 +96,7 @@ TEST(ParallelFor, JoinsItsThreadsBeforeItThrowsTheExceptionOfTheCaller)
 TEST(ParallelFor, LeavesOutTheRestAfterAnException)
 {
   std::size_t calls = 0;
-  EXPECT_NE("", errorOf([] { return true; }, &calls));
+  EXPECT_NE("", errorOfCalls([] { return true; }, &calls));
   EXPECT_LE(calls, std::max(1U, std::thread::hardware_concurrency()));
 }
 

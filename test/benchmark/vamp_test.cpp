@@ -11,7 +11,7 @@
 #include "gpu_planning_scene/error.h"
 #include "model/real_robots.h"
 #include "peers/vamp/vamp_check.h"
-#include "sphere_audit/vamp_model.h"
+#include "peers/vamp/vamp_model.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core::benchmark

@@ -49,21 +49,14 @@ template <>
 struct Format<float>
 {
   using Wide = double;
-  static constexpr std::uint64_t Work::*kOperations = &Work::floats;
   static constexpr float kLeastNormal = 1.17549435e-38f;
 };
 template <>
 struct Format<double>
 {
   using Wide = long double;
-  static constexpr std::uint64_t Work::*kOperations = &Work::doubles;
   static constexpr double kLeastNormal = 2.2250738585072014e-308;
 };
-
-inline void countOperation(std::uint64_t Work::*operation)
-{
-  ++(kernel().run->lane->work.*operation);
-}
 
 template <class T>
 T flushed(T x)
@@ -110,8 +103,6 @@ T rounded(typename Format<T>::Wide exact)
 template <class T>
 T approximate(typename Format<T>::Wide exact)
 {
-  if (std::is_same_v<T, float>)
-    countOperation(&Work::quotients);
   Run& run = *kernel().run;
   const int steps =
       run.arithmetic.steps == Arithmetic::kRandomSteps ? static_cast<int>(run.next() % 5) - 2 : run.arithmetic.steps;
@@ -160,7 +151,6 @@ struct Real
   friend Real operator-(const Real& x, const Real& y) { return sum(x, y, T(-1)); }
   friend Real operator*(const Real& x, const Real& y)
   {
-    countOperation(Format<T>::kOperations);
     Run& run = *kernel().run;
     if (!run.lane->precise && x.count > 1 && y.count > 1 && x.count * y.count <= kTerms &&
         run.choose(run.arithmetic.distribute))
@@ -207,7 +197,6 @@ struct Real
 
   static bool compared(const Real& x, const Real& y, bool result)
   {
-    countOperation(Format<T>::kOperations);
     if (std::isnan(x.value) || std::isnan(y.value))
       return kernel().run->choose(kernel().run->arithmetic.nan_is_true);
     return result;
@@ -223,7 +212,6 @@ struct Real
 
   static Real sum(const Real& x, const Real& y, T sign)
   {
-    countOperation(Format<T>::kOperations);
     Run& run = *kernel().run;
     const Wide plain = static_cast<Wide>(x.value) + static_cast<Wide>(sign) * y.value;
     if (run.lane->precise)
@@ -353,15 +341,12 @@ Real<T> fma(const Real<T>& x, const Real<T>& y, const Real<T>& z)
   Run& run = *kernel().run;
   if (!run.lane->precise)
     return x * y + z;
-  countOperation(Format<T>::kOperations);
-  countOperation(Format<T>::kOperations);
   const Wide exact = static_cast<Wide>(x.value) * y.value;
   const Wide product = run.choose(run.arithmetic.contract) ? exact : static_cast<Wide>(rounded<T>(exact));
   return Real<T>(rounded<T>(product + static_cast<Wide>(z.value)));
 }
 inline Double roundEven(const Double& x)
 {
-  countOperation(&Work::doubles);
   return Double(nearbyint(x.value));
 }
 inline uint min(uint x, uint y)

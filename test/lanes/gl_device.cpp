@@ -52,25 +52,6 @@ CommandQueue& commands()
   return simulator().commands();
 }
 
-/// The counts of the host's work, if there are any, else some that nobody reads.
-HostWork& hostWork()
-{
-  static HostWork unread;
-  return simulator().counts() ? simulator().counts()->host : unread;
-}
-
-void countUpload(GLsizeiptr bytes)
-{
-  ++hostWork().uploads;
-  hostWork().uploaded_bytes += static_cast<std::uint64_t>(bytes);
-}
-
-void countDownload(GLsizeiptr bytes)
-{
-  ++hostWork().downloads;
-  hostWork().downloaded_bytes += static_cast<std::uint64_t>(bytes);
-}
-
 /// The bits of the memory barriers since the last command. `command`: the kind of the command that follows.
 std::uint32_t barrierBits(const char* command)
 {
@@ -120,7 +101,6 @@ void deleteBuffers(GLsizei count, const GLuint* names)
 /// commands that were given before.
 void bufferSubData(GLuint buffer, GLintptr offset, GLsizeiptr size, const void* data)
 {
-  countUpload(size);
   const BufferName& to = buffers.at(buffer);
   if ((to.flags & GL_DYNAMIC_STORAGE_BIT) == 0)
     return simulator().report("an upload to a buffer without GL_DYNAMIC_STORAGE_BIT");
@@ -130,8 +110,6 @@ void bufferSubData(GLuint buffer, GLintptr offset, GLsizeiptr size, const void* 
 
 void getBufferSubData(GLuint buffer, GLintptr offset, GLsizeiptr size, void* data)
 {
-  countDownload(size);
-  ++hostWork().waits;
   give("download",
        [=, block = buffers.at(buffer).block]
        {
@@ -167,10 +145,6 @@ void copyBufferSubData(GLuint from, GLuint to, GLintptr from_offset, GLintptr to
   const BufferName& target = buffers.at(to);
   const bool is_upload = (source.mapped_for & GL_MAP_WRITE_BIT) != 0;
   const bool is_readback = (target.mapped_for & GL_MAP_READ_BIT) != 0;
-  if (is_upload)
-    countUpload(size);
-  if (is_readback)
-    countDownload(size);
   std::vector<char> given;  // what the host has written for this copy
   if (is_upload)
     given = bytesOf(source.block, from_offset, size);
@@ -346,7 +320,6 @@ GLsync fenceSync(GLenum, GLbitfield)
 
 GLenum clientWaitSync(GLsync fence, GLbitfield, GLuint64)
 {
-  ++hostWork().waits;
   const auto last = reinterpret_cast<CommandQueue::Serial>(fence);
   if (commands().lastExecuted() >= last)
     return GL_ALREADY_SIGNALED;
@@ -368,7 +341,6 @@ struct Locked<function>
   static R call(A... arguments)
   {
     const std::lock_guard<std::recursive_mutex> guard(lock);
-    ++hostWork().calls;
     return function(arguments...);
   }
 };

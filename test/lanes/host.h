@@ -33,24 +33,6 @@ struct Arithmetic
   static constexpr int kRandomSteps = 3;
 };
 
-/// The operations and accesses of an invocation, or of several. min and max are comparisons. Negations, absolute
-/// values, conversions, integers and booleans are not counted. An access counts once, however many words it has.
-struct Work
-{
-  std::uint64_t floats = 0;   ///< sums, products and comparisons of floats
-  std::uint64_t doubles = 0;  ///< the same of doubles
-  /// Divisions and square roots of floats. Those of doubles are not counted: nearly all divide constants, which a
-  /// compiler does (problem/kinematics.glsl).
-  std::uint64_t quotients = 0;
-  std::uint64_t fetches = 0;  ///< of texels
-  std::uint64_t loads = 0;    ///< from storage buffers
-  std::uint64_t stores = 0;   ///< to storage buffers
-  std::uint64_t atomics = 0;  ///< on storage buffers
-  std::uint64_t shared = 0;   ///< accesses to shared memory
-  std::uint64_t barriers = 0;
-  std::uint64_t bytes = 0;  ///< of fetches, loads, stores and atomics
-};
-
 /// The invocation that runs.
 struct Lane
 {
@@ -58,7 +40,6 @@ struct Lane
   std::uint32_t group[3] = {};
   std::uint32_t groups[3] = {};
   bool precise = false;  ///< a `precise` expression is being computed
-  Work work = {};        ///< since the last barrier
 };
 
 enum class SharedAccess

@@ -3,7 +3,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <iostream>
 #include <string>
 
 #include <unistd.h>
@@ -27,8 +26,6 @@ struct Preload
     if (number("GPS_LANES_EXACT", 0) != 0)
       lanes::device().useExactArithmetic();
     lanes::device().setResidentGroups(number("GPS_LANES_GROUPS", 3));
-    if (number("GPS_LANES_COUNTS", 0) != 0)
-      lanes::device().countWork(&counts);
     const char* const before = std::getenv("GPS_LANES_IGNORE_BEFORE");
     lanes::ignoreBarrierBits(static_cast<std::uint32_t>(number("GPS_LANES_IGNORE_BITS", 0)), before ? before : "");
     lanes::replaceOpenGl();
@@ -36,8 +33,6 @@ struct Preload
   ~Preload()
   {
     lanes::device().commands().finish();
-    if (lanes::device().counts())
-      counts.print(std::cerr);
     const auto& faults = lanes::device().faults();
     for (const std::string& fault : faults)
       std::fprintf(stderr, "lanes: %s\n", fault.c_str());
@@ -46,8 +41,6 @@ struct Preload
     std::fflush(nullptr);
     _exit(1);
   }
-
-  lanes::WorkCounts counts;
 };
 Preload preload;
 }  // namespace

@@ -4,7 +4,6 @@
 #include <cassert>
 #include <cstdlib>
 #include <cstring>
-#include <unordered_set>
 #include <utility>
 
 #include <boost/context/fiber.hpp>
@@ -51,8 +50,6 @@ struct Simulator::Group
   std::size_t finished = 0, waiting = 0;
   std::vector<char> shared;
   std::map<std::uint32_t, std::vector<Place>> places;  // by offset of the variable
-  LongestPath path;
-  std::vector<std::unordered_set<std::uint64_t>> sectors;  // since the last barrier, of each warp; only if counted
 };
 
 struct Simulator::Fiber
@@ -201,15 +198,12 @@ Block* Simulator::find(std::uint32_t binding, std::uint64_t word, std::uint32_t 
     return nullptr;
   }
   at = bound->second.first + word;
-  touch(bound->second.block, at, count);
   return blocks_.at(bound->second.block).get();
 }
 
 void Simulator::load(std::uint32_t binding, std::uint64_t first, std::uint32_t count, std::uint32_t* values)
 {
   maybeSwitch();
-  ++running_->lane.work.loads;
-  running_->lane.work.bytes += count * sizeof(std::uint32_t);
   std::size_t at = 0;
   Block* block = find(binding, first, count, at);
   std::fill_n(values, count, 0);
@@ -263,8 +257,6 @@ void Simulator::noteWrite(Block::Word& word, std::uint32_t value, bool atomicall
 void Simulator::store(std::uint32_t binding, std::uint64_t first, std::uint32_t count, const std::uint32_t* values)
 {
   maybeSwitch();
-  ++running_->lane.work.stores;
-  running_->lane.work.bytes += count * sizeof(std::uint32_t);
   std::size_t at = 0;
   Block* block = find(binding, first, count, at);
   if (!block)
@@ -283,8 +275,6 @@ std::uint32_t Simulator::atomic(std::uint32_t binding, std::uint64_t first, Atom
                                 std::uint32_t value, std::uint32_t compared)
 {
   maybeSwitch();
-  ++running_->lane.work.atomics;
-  running_->lane.work.bytes += sizeof(std::uint32_t);
   std::size_t at = 0;
   Block* block = find(binding, first, 1, at);
   if (!block)
@@ -316,8 +306,6 @@ std::uint32_t Simulator::atomic(std::uint32_t binding, std::uint64_t first, Atom
 
 void Simulator::fetch(std::uint32_t unit, std::int64_t texel, std::uint32_t* values)
 {
-  ++running_->lane.work.fetches;
-  running_->lane.work.bytes += 4 * sizeof(std::uint32_t);
   std::fill_n(values, 4, 0);
   const auto bound = textures_.find(unit);
   if (bound == textures_.end() || blocks_.find(bound->second) == blocks_.end())
@@ -325,7 +313,6 @@ void Simulator::fetch(std::uint32_t unit, std::int64_t texel, std::uint32_t* val
   Block& block = *blocks_.at(bound->second);
   if (texel < 0 || (texel + 1) * 16 > static_cast<std::int64_t>(block.bytes))
     return report("a fetch beyond the end of texture unit " + text(unit));
-  touch(bound->second, static_cast<std::size_t>(texel) * 4, 4);
   for (int i = 0; i < 4; ++i)
   {
     Block::Word& word = block.history[texel * 4 + i];
@@ -346,7 +333,6 @@ void* Simulator::shared(std::uint32_t offset, std::uint32_t place, SharedAccess 
     maybeSwitch();
   if (place == kNoPlace)
     return &running_->group->shared[offset];
-  ++running_->lane.work.shared;
   const Kernel& kernel = *program_->kernel;
   const Variable* of = nullptr;
   for (std::uint32_t i = 0; i < kernel.variable_count; ++i)
@@ -391,7 +377,6 @@ void* Simulator::shared(std::uint32_t offset, std::uint32_t place, SharedAccess 
 void Simulator::barrier(int site)
 {
   countAccess();
-  ++running_->lane.work.barriers;
   running_->barrier = site;
   ++running_->group->waiting;
   running_->pause();
@@ -423,8 +408,6 @@ bool Simulator::release(Group& group)
 {
   if (group.waiting + group.finished < group.lanes.size())
     return false;
-  if (counts_)
-    countWork(group);
   if (group.waiting > 0)
   {
     int site = 0;
@@ -447,32 +430,6 @@ bool Simulator::release(Group& group)
     ++group.epoch;
   }
   return group.finished == group.lanes.size();
-}
-
-/// Notes the sectors of an access.
-void Simulator::touch(std::uint32_t block, std::size_t word, std::size_t words)
-{
-  if (!counts_)
-    return;
-  std::vector<std::unordered_set<std::uint64_t>>& sectors = running_->group->sectors;
-  sectors.resize((running_->group->lanes.size() + kWarp - 1) / kWarp);
-  constexpr std::size_t kWords = kSectorBytes / sizeof(std::uint32_t);
-  for (std::size_t sector = word / kWords; sector <= (word + words - 1) / kWords; ++sector)
-    sectors[running_->lane.local / kWarp].insert(std::uint64_t{block} << 40U | sector);
-}
-
-/// Adds the work of all lanes of a group since their last barrier to the counts.
-void Simulator::countWork(Group& group)
-{
-  std::vector<Work> work;
-  for (const auto& lane : group.lanes)
-    work.push_back(std::exchange(lane->lane.work, {}));
-  std::size_t sectors = 0;
-  for (auto& of_warp : group.sectors)
-    sectors += std::exchange(of_warp, {}).size();
-  counts_->add(work, sectors, group.path);
-  if (group.finished == group.lanes.size())
-    counts_->endGroup(group.lanes.size(), group.path);
 }
 
 void Simulator::chooseFreedoms()
@@ -512,7 +469,7 @@ void Simulator::startGroup(std::uint32_t number, std::uint32_t columns, std::uin
       idle_.push_back(std::make_unique<Fiber>());
     std::unique_ptr<Fiber> fiber = std::move(idle_.back());
     idle_.pop_back();
-    fiber->lane = {i, {number % columns, number / columns, 0}, {columns, rows, 1}, false, {}};
+    fiber->lane = {i, {number % columns, number / columns, 0}, {columns, rows, 1}, false};
     fiber->group = group.get();
     fiber->main = program_->main;
     fiber->finished = false;
@@ -529,8 +486,6 @@ void Simulator::dispatch(const Program& program, std::uint32_t columns, std::uin
 {
   if (hangs_)
     return;
-  if (counts_)
-    counts_->begin(program.name);
   if (columns * rows == 0)
     return;
   ++dispatch_;

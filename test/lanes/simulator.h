@@ -10,7 +10,6 @@
 
 #include "lanes/command_queue.h"
 #include "lanes/host.h"
-#include "lanes/work_counts.h"
 
 namespace lanes
 {
@@ -77,14 +76,6 @@ class Simulator : private Memory
   /// The work groups that are in flight at the same time. A GPU has hundreds, which share the entries of a queue.
   void setResidentGroups(std::size_t groups) { resident_groups_ = groups; }
 
-  /// From now on, work is added to these counts. Null: to none.
-  void countWork(WorkCounts* counts)
-  {
-    commands_.finish();
-    counts_ = counts;
-  }
-  WorkCounts* counts() { return counts_; }
-
   std::uint32_t addBlock(std::size_t bytes);
   void removeBlock(std::uint32_t id) { blocks_.erase(id); }
   Block& block(std::uint32_t id) { return *blocks_.at(id); }
@@ -143,8 +134,6 @@ class Simulator : private Memory
   void maybeSwitch();
   void startGroup(std::uint32_t number, std::uint32_t columns, std::uint32_t rows);
   bool release(Group& group);
-  void countWork(Group& group);
-  void touch(std::uint32_t block, std::size_t word, std::size_t words);
 
   CommandQueue commands_;
   std::map<std::uint32_t, std::unique_ptr<Block>> blocks_;
@@ -156,7 +145,6 @@ class Simulator : private Memory
   Run run_;
   bool chosen_arithmetic_ = true;
   std::size_t resident_groups_ = 3;
-  WorkCounts* counts_ = nullptr;
   std::mt19937_64 random_{1};
   std::set<std::string> faults_;
   std::uint64_t switches_ = 0;

@@ -279,8 +279,8 @@ class StateChecker(Case):
             with mock.patch.dict(os.environ, GPU_PLANNING_SCENE_SHADERS=str(shaders)):
                 checker = gps.StateChecker(scene, device_only=True)
                 self.assertNotEqual("CPU", checker.device_name)
-                scene.add_object("a", gps.Sphere(0.3), [1, 0, 0])
-                scene.add_object("b", gps.Sphere(0.4), [-1, 0, 0])
+                scene.add_object("a", gps.Box([0.6, 0.6, 0.6]), [1, 0, 0])
+                scene.add_object("b", gps.Box([0.8, 0.8, 0.8]), [-1, 0, 0])
                 checker.set_scene(scene)  # the device takes the scene over in the background
                 states = np.linspace(-3.0, 3.0, 100)[:, None]
                 with self.assertWarnsRegex(UserWarning, "^the device has failed, so the CPU checks the states: the GPU "

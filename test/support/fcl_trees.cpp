@@ -1,5 +1,7 @@
 #include "support/fcl_trees.h"
 
+#include <map>
+#include <mutex>
 #include <vector>
 
 #include <fcl/geometry/shape/cone.h>
@@ -73,15 +75,36 @@ class MovedTree : public FclMovedTree
   std::vector<Eigen::Vector3d> vertices_;
   Eigen::Isometry3d pose_ = Eigen::Isometry3d::Identity();
 };
+
+/// The tree over a mesh. Queries do not change trees of oriented boxes, so peers share one as long as any of them uses
+/// it: FCL needs a second for the meshes of a real robot.
+FclGeometry treeOf(const std::shared_ptr<const Mesh>& mesh, FclTree tree)
+{
+  struct Known
+  {
+    std::weak_ptr<const Mesh> mesh;
+    std::weak_ptr<fcl::CollisionGeometry<double>> tree;
+  };
+  static std::mutex mutex;
+  static std::map<const Mesh*, Known> all_known;
+  const std::lock_guard<std::mutex> lock(mutex);
+  Known& known = all_known[mesh.get()];
+  FclGeometry model = tree == FclTree::Obbrss && known.mesh.lock() == mesh ? known.tree.lock() : nullptr;
+  if (model)
+    return model;
+  model = makeTree(*mesh, tree);
+  model->computeLocalAABB();
+  if (tree == FclTree::Obbrss)
+    known = {mesh, model};
+  return model;
+}
 }  // namespace
 
 FclGeometry makeFclGeometry(const Shape& shape, const Tessellation& tessellation, FclTree tree)
 {
   if (FclGeometry round = makeFclRound(shape))
     return round;
-  FclGeometry model = makeTree(*tessellation.mesh, tree);
-  model->computeLocalAABB();
-  return model;
+  return treeOf(tessellation.mesh, tree);
 }
 
 std::shared_ptr<FclMovedTree> makeFclMovedTree(const Shape& shape, const Tessellation& tessellation, FclTree tree)

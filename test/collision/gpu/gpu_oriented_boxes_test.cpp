@@ -98,13 +98,14 @@ class GpuOrientedBoxesTest : public testing::Test
     const Eigen::Quaterniond orientation(q[3], q[0], q[1], q[2]);
     EXPECT_NEAR(orientation.norm(), 1.0, 1e-6) << "node " << index;
     const Eigen::Matrix3d into = orientation.normalized().toRotationMatrix().transpose();
+    const Vector3d center(box.center[0], box.center[1], box.center[2]);
+    ASSERT_TRUE(center.allFinite()) << "node " << index;
+    Vector3d farthest = Vector3d::Zero();
     for (const std::uint32_t triangle : triangles)
       for (const Vector3d& corner : cornersOf(triangle))
-      {
-        const Vector3d along = into * (corner - Vector3d(box.center[0], box.center[1], box.center[2]));
-        for (std::size_t axis = 0; axis < 3; ++axis)
-          EXPECT_LE(std::abs(along[static_cast<Eigen::Index>(axis)]), double{box.half[axis]}) << "node " << index;
-      }
+        farthest = farthest.cwiseMax((into * (corner - center)).cwiseAbs());
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      EXPECT_LE(farthest[static_cast<Eigen::Index>(axis)], double{box.half[axis]}) << "node " << index;
     // The box is not larger than the axis-aligned box, except for outward rounding.
     EXPECT_LE(halfSurface(box.half), halfSurface(node.half) + surfaceOfRounding(node)) << "node " << index;
   }

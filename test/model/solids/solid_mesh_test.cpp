@@ -303,15 +303,15 @@ TEST(SolidMesh, OfTheRuleSurfaceHasNothingInside)
 /// than against it.
 std::size_t openEdges(const SolidMesh& solid)
 {
-  using Point = std::array<double, 3>;
-  std::map<std::array<Point, 2>, std::pair<int, int>> uses;
+  using Corner = std::array<double, 3>;
+  std::map<std::array<Corner, 2>, std::pair<int, int>> uses;
   for (std::size_t i = 0; i < solid.roles.size(); ++i)
     for (std::size_t k = 0; k < 3 && solid.roles[i] != TriangleRole::Surface; ++k)
     {
       const Vector3d& a = solid.mesh->vertices[solid.mesh->triangles[i][k]];
       const Vector3d& b = solid.mesh->vertices[solid.mesh->triangles[i][(k + 1) % 3]];
-      const Point from = {a.x() + 0.0, a.y() + 0.0, a.z() + 0.0};
-      const Point to = {b.x() + 0.0, b.y() + 0.0, b.z() + 0.0};
+      const Corner from = {a.x() + 0.0, a.y() + 0.0, a.z() + 0.0};
+      const Corner to = {b.x() + 0.0, b.y() + 0.0, b.z() + 0.0};
       auto& [sum, odd] = uses[from < to ? std::array{from, to} : std::array{to, from}];
       if (solid.roles[i] == TriangleRole::Winding)
         sum += from < to ? 1 : -1;

@@ -24,7 +24,7 @@ Bytes bytesOf(const M& message)
 
 // The error of readBounded for the bytes; "" if it accepts them. Other exceptions fail the test.
 template <class M>
-std::string faultOf(const Bytes& bytes, M& message)
+std::string faultOfReading(const Bytes& bytes, M& message)
 {
   try
   {
@@ -91,7 +91,7 @@ void expectTheSameAsRoscpp(const M& message)
 {
   const Bytes bytes = bytesOf(message);
   M read;
-  EXPECT_EQ(faultOf(bytes, read), "");
+  EXPECT_EQ(faultOfReading(bytes, read), "");
   EXPECT_EQ(bytesOf(read), bytes);
 }
 
@@ -113,12 +113,13 @@ TEST_F(BoundedMessage, EveryTruncatedMessageIsRefused)
   for (std::size_t size = 0; size < bytes.size(); ++size)
   {
     ApplyPlanningScene::Request request;
-    EXPECT_NE(faultOf(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)), request), "") << size;
+    EXPECT_NE(faultOfReading(Bytes(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size)), request), "")
+        << size;
   }
   Bytes longer = bytes;
   longer.push_back(0);
   ApplyPlanningScene::Request request;
-  EXPECT_NE(faultOf(longer, request), "");
+  EXPECT_NE(faultOfReading(longer, request), "");
 }
 
 TEST_F(BoundedMessage, WrongLengthsAllocateNoMemory)
@@ -131,7 +132,7 @@ TEST_F(BoundedMessage, WrongLengthsAllocateNoMemory)
       Bytes wrong = bytes;
       std::fill_n(wrong.begin() + static_cast<std::ptrdiff_t>(at), 4, value);
       ApplyPlanningScene::Request request;
-      refused += faultOf(wrong, request).empty() ? 0 : 1;
+      refused += faultOfReading(wrong, request).empty() ? 0 : 1;
       EXPECT_LT(request.scene.world.collision_objects.capacity(), 1000u);
       EXPECT_LT(request.scene.robot_state.joint_state.position.capacity(), 1000u);
     }
@@ -143,9 +144,9 @@ TEST_F(BoundedMessage, TheLimitIsHeldAndItsParameterNamed)
   const Bytes bytes = bytesOf(cloud());
   sensor_msgs::PointCloud2 message;
   setMessageLimit(static_cast<std::uint32_t>(bytes.size()));
-  EXPECT_EQ(faultOf(bytes, message), "");
+  EXPECT_EQ(faultOfReading(bytes, message), "");
   setMessageLimit(static_cast<std::uint32_t>(bytes.size()) - 1);
-  EXPECT_NE(faultOf(bytes, message).find("~limits/message_size"), std::string::npos);
+  EXPECT_NE(faultOfReading(bytes, message).find("~limits/message_size"), std::string::npos);
 }
 
 TEST_F(BoundedMessage, RoscppTakesItForTheMessage)

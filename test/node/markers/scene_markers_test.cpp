@@ -53,7 +53,7 @@ MarkerArray markers(const PlanningScene& scene, const std::vector<BodyPair>& col
   return markersOf(scene, scene.robot->defaultState().data(), colliding, contacts, options);
 }
 
-bool isRed(const Marker& marker)
+bool isRedMarker(const Marker& marker)
 {
   return marker.color.r > 0.5F && marker.color.g < 0.3F && marker.color.b < 0.3F;
 }
@@ -85,7 +85,7 @@ TEST(Markers, BodiesAreDrawnAsWhatTheyAre)
     {
       EXPECT_GT(marker.scale.x * marker.scale.y * marker.scale.z, 0.0);
       EXPECT_GT(marker.color.a, 0.0F);
-      EXPECT_FALSE(isRed(marker));
+      EXPECT_FALSE(isRedMarker(marker));
     }
   }
 }
@@ -124,11 +124,11 @@ TEST(Markers, CollidingBodiesAreRedAndContactsShown)
   EXPECT_EQ(array.markers.back().color.a, 1.0F);
   for (const Marker& marker : array.markers)
     if (marker.action == Marker::ADD)
-      EXPECT_EQ(isRed(marker) && marker.ns == "objects", marker.color.a < 0.9F);
+      EXPECT_EQ(isRedMarker(marker) && marker.ns == "objects", marker.color.a < 0.9F);
   const auto red_of = [&](const std::string& name)
   {
     for (const Marker& marker : array.markers)
-      if (marker.ns == name && isRed(marker))
+      if (marker.ns == name && isRedMarker(marker))
         return marker.color.r;
     return 0.0F;
   };

@@ -354,6 +354,8 @@ TEST_P(WatchedScenes, NoCollisionOfTheRestIsMissedAndNoneIsInvented)
   int free = 0;
   int changes = 0;
   const auto checker = std::make_shared<CpuChecker>(test_->scene);
+  // Keeps FCL's trees of the robot for the peers of all scenes.
+  const FclPeer keeper(std::make_shared<const CollisionProblem>(makeProblem(*test_->scene, "", nullptr)));
   for (int t = 0; t < kTrajectories; ++t)
   {
     const WatchedTrajectory trajectory = freeTrajectory();

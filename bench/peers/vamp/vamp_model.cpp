@@ -1,4 +1,4 @@
-#include "sphere_audit/vamp_model.h"
+#include "peers/vamp/vamp_model.h"
 
 #include <algorithm>
 #include <filesystem>
