@@ -64,8 +64,9 @@ struct OccupancyMapOptions
 /// The voxels that depth cameras and laser scanners have found occupied. Free space is not stored, because the scene
 /// does not need it.
 ///
-/// A measured point occupies its voxel at once. Not used are points outside the range or the region, points near the
-/// robot (SensorView::padding), and points at the border of an image if the centre of their voxel is outside the image.
+/// A measured point occupies its voxel at once. These points are not used: points outside the range or the region,
+/// points near the robot (SensorView::padding), and points at the border of an image if the centre of their voxel is
+/// outside the image.
 ///
 /// A measurement sees through a voxel if it has rays to the space behind the voxel, and no ray that ends at or before
 /// the voxel (see DepthView). Each such measurement takes one hit of the voxel back. A voxel keeps three hits at most,
