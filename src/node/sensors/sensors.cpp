@@ -20,9 +20,9 @@ namespace
 {
 using diagnostic_msgs::DiagnosticStatus;
 
-constexpr double kLongestSilence = 1.0;          // seconds
-constexpr double kLargestAdvance = 1.0;          // seconds of a stamp before the node's clock
-constexpr std::chrono::milliseconds kPause{10};  // after which a missing frame is looked up again
+constexpr double kLongestSilence = 1.0;               // seconds
+constexpr double kLargestAdvance = 1.0;               // seconds of a stamp before the node's clock
+constexpr std::chrono::milliseconds kNextLookup{10};  // after which a missing frame is looked up again
 constexpr std::chrono::milliseconds kRepublish{100};
 
 const std_msgs::Header& headerOf(const std::variant<sensor_msgs::Image, sensor_msgs::PointCloud2>& message)
@@ -147,7 +147,7 @@ void Sensors::run()
     const bool has_current =
         std::any_of(sensors_.begin(), sensors_.end(), [](const auto& sensor) { return sensor->current.has_value(); });
     if (all_wait)
-      arrived_.wait_for(lock, has_current ? kPause : kRepublish,
+      arrived_.wait_for(lock, has_current ? kNextLookup : kRepublish,
                         [this]
                         {
                           return stopping_ ||

@@ -117,7 +117,7 @@ TEST(Markers, CollidingBodiesAreRedAndContactsShown)
   const int cart = scene.robot->linkIndex("cart");
   const int ball = static_cast<int>(scene.robot->links().size()) + 2;
   const MarkerArray array = markers(scene, {{cart, ball}}, {{0.1, 0.2, 0.3}, {0.4, 0.5, 0.6}});
-  EXPECT_EQ(std::count_if(array.markers.begin(), array.markers.end(), isRed), 2);
+  EXPECT_EQ(std::count_if(array.markers.begin(), array.markers.end(), isRedMarker), 2);
   EXPECT_EQ(countOf(array, "contacts", Marker::SPHERE_LIST), 1u);
   EXPECT_EQ(array.markers.back().points.size(), 2u);
   // Links and contacts are seen inside of the objects that they hit.
