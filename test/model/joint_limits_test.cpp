@@ -8,7 +8,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 /// A revolute joint "arm" and a prismatic joint "lift", from -1 to 2, and a continuous joint "pan".
-class ValuesOutsideLimits : public testing::Test
+class LimitedJoints : public testing::Test
 {
  public:
   std::optional<ValueOutsideLimits> find(const std::vector<double>& rows) const
@@ -22,14 +22,14 @@ class ValuesOutsideLimits : public testing::Test
       jointXml("lift", "prismatic", "a", "b", kLimits) + jointXml("pan", "continuous", "b", "c"));
 };
 
-TEST_F(ValuesOutsideLimits, ValuesWithinThemGiveNoLine)
+TEST_F(LimitedJoints, ValuesWithinThemGiveNoLine)
 {
   EXPECT_FALSE(find({-1.0, 2.0, 2.0 + 1e-7, -1.0 - 1e-7}));
   const std::vector<double> turns = {100.0};
   EXPECT_FALSE(findValueOutsideLimits(*robot, {robot->variableIndex("pan")}, turns.data(), 1));
 }
 
-TEST_F(ValuesOutsideLimits, TheFirstValueOutsideThemIsNamedAndTheOthersAreCounted)
+TEST_F(LimitedJoints, TheFirstValueOutsideThemIsNamedAndTheOthersAreCounted)
 {
   const auto found = find({0.0, 0.0, 0.0, 2.5, -300.0, 0.0, 0.0, -2.0});
   ASSERT_TRUE(found);
@@ -37,14 +37,14 @@ TEST_F(ValuesOutsideLimits, TheFirstValueOutsideThemIsNamedAndTheOthersAreCounte
   EXPECT_EQ(found->text, "joint 'lift' is 2.5, outside its limits -1 to 2; 2 more values are outside the limits");
 }
 
-TEST_F(ValuesOutsideLimits, AValueHardlyOutsideThemHasEnoughDigits)
+TEST_F(LimitedJoints, AValueHardlyOutsideThemHasEnoughDigits)
 {
   ValuesOutsideLimits outside(*robot);
   outside.add(robot->variableIndex("lift"), 2.0 + 1e-7);
   EXPECT_EQ(outside.text(), "joint 'lift' is 2.0000000999999998, outside its limits -1 to 2");
 }
 
-TEST_F(ValuesOutsideLimits, DegreesAreSuggestedForAnglesThatTheyWouldFit)
+TEST_F(LimitedJoints, DegreesAreSuggestedForAnglesThatTheyWouldFit)
 {
   EXPECT_EQ(find({90.0, 0.0})->text,
             "joint 'arm' is 90, outside its limits -1 to 2 rad; values are in radians, and 90 degrees are 1.5708 rad");
@@ -53,7 +53,7 @@ TEST_F(ValuesOutsideLimits, DegreesAreSuggestedForAnglesThatTheyWouldFit)
   EXPECT_EQ(find({0.0, 90.0})->text, "joint 'lift' is 90, outside its limits -1 to 2");
 }
 
-TEST_F(ValuesOutsideLimits, DegreesAreSuggestedAlsoIfTheFirstValueIsSmall)
+TEST_F(LimitedJoints, DegreesAreSuggestedAlsoIfTheFirstValueIsSmall)
 {
   EXPECT_EQ(
       find({5.0, 0.0, 90.0, 0.0})->text,
@@ -65,7 +65,7 @@ TEST_F(ValuesOutsideLimits, DegreesAreSuggestedAlsoIfTheFirstValueIsSmall)
 }
 
 /// Robots on a map, for example with UTM coordinates, may be far from the origin of their planning frame.
-TEST_F(ValuesOutsideLimits, AWholeNumberOfManyTurnsOfAContinuousJointMayBeInDegrees)
+TEST_F(LimitedJoints, AWholeNumberOfManyTurnsOfAContinuousJointMayBeInDegrees)
 {
   const std::vector<int> pan = {robot->variableIndex("pan")};
   for (const double measured : {6.0, -6.28, 90.25, 1234.5678})
@@ -78,7 +78,7 @@ TEST_F(ValuesOutsideLimits, AWholeNumberOfManyTurnsOfAContinuousJointMayBeInDegr
   EXPECT_EQ(findDoubtfulValue(*robot, pan, typed.data(), 2)->text, found->text);
 }
 
-TEST_F(ValuesOutsideLimits, OtherValuesThanTheGivenOnesAreFoundInAFullState)
+TEST_F(LimitedJoints, OtherValuesThanTheGivenOnesAreFoundInAFullState)
 {
   std::vector<double> state = robot->defaultState();
   const int arm = robot->variableIndex("arm");

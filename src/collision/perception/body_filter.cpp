@@ -82,7 +82,7 @@ std::vector<std::uint8_t> BodyFilter::near(const VoxelGrid& grid, const std::vec
 {
   std::vector<Isometry3d> link_poses(scene.robot->links().size());
   scene.robot->linkPoses(state, link_poses.data());
-  std::vector<std::uint8_t> flags(centres.size(), kNearNothing);
+  std::vector<std::uint8_t> flags(centres.size(), 0);
   PlanningScene bodies = paddedBodies(scene, link_poses, padding, objects);
   const std::vector<std::size_t> near =
       cubesNear(bodies, link_poses, 0.5 * grid.size() + padding + kCubeMargin, centres);

@@ -13,13 +13,9 @@
 
 namespace gpu_planning_scene::core
 {
-/// The bodies near a voxel.
-enum NearBody : std::uint8_t
-{
-  kNearNothing = 0,
-  kNearRobot = 1,   ///< a link, or an attached object that is not named
-  kNearObject = 2,  ///< a named object
-};
+// Flags of the bodies near a voxel.
+constexpr std::uint8_t kNearRobot = 1;   ///< a link, or an attached object that is not named
+constexpr std::uint8_t kNearObject = 2;  ///< a named object
 
 /// Removes the elements that have one of the flags of `mask`.
 template <class Element>
@@ -38,9 +34,9 @@ void removeFlagged(std::vector<Element>& elements, const std::vector<std::uint8_
 class BodyFilter
 {
  public:
-  /// The NearBody flags of each cube of `grid`. A cube is near a body if their distance is at most `padding` (metres).
-  /// `state`: one value per variable. `objects`: ids of objects of the world and of attached objects; ids that the
-  /// scene does not have are ignored. Throws Error if a named object has a half-space.
+  /// The flags kNearRobot and kNearObject of each cube of `grid`. A cube is near a body if their distance is at most
+  /// `padding` (metres). `state`: one value per variable. `objects`: ids of objects of the world and of attached
+  /// objects; ids that the scene does not have are ignored. Throws Error if a named object has a half-space.
   std::vector<std::uint8_t> near(const VoxelGrid& grid, const std::vector<Eigen::Vector3d>& centres,
                                  const PlanningScene& scene, const double* state, double padding,
                                  const std::set<std::string>& objects);
