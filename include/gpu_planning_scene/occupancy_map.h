@@ -23,6 +23,12 @@ struct PinholeCamera
   double fy = 0.0;
   double cx = 0.0;  ///< the principal point
   double cy = 0.0;
+
+  /// The place of a pixel in an array of pixels, row by row.
+  std::size_t pixel(int x, int y) const
+  {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
 };
 
 /// A depth image, as REP 118 defines it: metres along the optical axis, row by row. NaN or 0: not measured. Infinity:

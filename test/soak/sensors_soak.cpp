@@ -222,8 +222,7 @@ class SensorsSoak : public RunningNode
       for (int x = static_cast<int>(u - reach); x <= static_cast<int>(u + reach); ++x)
       {
         float depth = 0.0F;
-        std::memcpy(&depth, seen.image.data.data() + static_cast<std::size_t>(y * kCamera.width + x) * sizeof(float),
-                    sizeof(float));
+        std::memcpy(&depth, seen.image.data.data() + kCamera.pixel(x, y) * sizeof(float), sizeof(float));
         if (static_cast<double>(depth) < local.z() + radius)
           return false;
       }
@@ -257,8 +256,7 @@ class SensorsSoak : public RunningNode
       for (int x = 10; x < kCamera.width; x += 40)
       {
         float depth = 0.0F;
-        std::memcpy(&depth, seen.image.data.data() + static_cast<std::size_t>(y * kCamera.width + x) * sizeof(float),
-                    sizeof(float));
+        std::memcpy(&depth, seen.image.data.data() + kCamera.pixel(x, y) * sizeof(float), sizeof(float));
         const double z = static_cast<double>(depth);
         const Vector3d point =
             camera * Vector3d((x - kCamera.cx) / kCamera.fx * z, (y - kCamera.cy) / kCamera.fy * z, z);

@@ -49,8 +49,7 @@ class DepthBuffer
   DepthBuffer(const PinholeCamera& camera, const Isometry3d& camera_pose) : to_camera_(camera_pose.inverse())
   {
     image_.camera = camera;
-    image_.depths.assign(static_cast<std::size_t>(camera.width * camera.height),
-                         std::numeric_limits<float>::infinity());
+    image_.depths.assign(camera.pixel(0, camera.height), std::numeric_limits<float>::infinity());
   }
 
   void draw(const std::vector<PlacedShape>& shapes, const Isometry3d& pose)
@@ -113,7 +112,7 @@ class DepthBuffer
           continue;
         const Vector3d ray((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0);
         const double depth = normal.dot(triangle[0]) / normal.dot(ray);
-        float& smallest = image_.depths[static_cast<std::size_t>(y * camera.width + x)];
+        float& smallest = image_.depths[camera.pixel(x, y)];
         if (depth >= kNearPlane)
           smallest = std::min(smallest, static_cast<float>(depth));
       }
@@ -152,7 +151,7 @@ double distanceFromSurface(const WorldObject& box, const Vector3d& point)
 Vector3d pointOf(const DepthImage& image, int x, int y)
 {
   const PinholeCamera& camera = image.camera;
-  const double depth = static_cast<double>(image.depths[static_cast<std::size_t>(y * camera.width + x)]);
+  const double depth = static_cast<double>(image.depths[camera.pixel(x, y)]);
   return depth * Vector3d((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0);
 }
 

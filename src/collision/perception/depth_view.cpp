@@ -17,6 +17,11 @@ struct PixelRange
   int last;
 };
 
+std::size_t pixelOf(int x, int y, int width)
+{
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+}
+
 /// The pixels in which the interval [low, high] at the depths [near, far] may appear, and one more on each side.
 PixelRange pixelsOf(double low, double high, double near, double far, double focal_length, double centre, int size)
 {
@@ -42,7 +47,7 @@ DepthView::DepthView(const PinholeCamera& camera, std::vector<float> depths, boo
     for (int y = 0; y < fine.height; ++y)
       for (int x = 0; x < fine.width; ++x, ++depth)
       {
-        float& smallest = coarse.depths[static_cast<std::size_t>((y / 2) * coarse.width + x / 2)];
+        float& smallest = coarse.depths[pixelOf(x / 2, y / 2, coarse.width)];
         smallest = std::min(smallest, *depth);
       }
     levels_.push_back(std::move(coarse));
@@ -73,7 +78,7 @@ bool DepthView::seesBehind(const Eigen::Vector3d& centre, double radius) const
   float smallest = std::numeric_limits<float>::infinity();
   for (int y = rows.first >> level; y <= rows.last >> level; ++y)
     for (int x = columns.first >> level; x <= columns.last >> level; ++x)
-      smallest = std::min(smallest, depths.depths[static_cast<std::size_t>(y * depths.width + x)]);
+      smallest = std::min(smallest, depths.depths[pixelOf(x, y, depths.width)]);
   return std::isfinite(smallest) && static_cast<double>(smallest) > far &&
          (!has_gaps_ || passesThrough(centre, radius / std::sqrt(3.0)));
 }
@@ -93,7 +98,7 @@ bool DepthView::passesThrough(const Eigen::Vector3d& centre, double radius) cons
   const PixelRange rows = pixels_of(centre.y(), camera_.fy, camera_.cy, camera_.height);
   for (int y = rows.first; y <= rows.last; ++y)
     for (int x = columns.first; x <= columns.last; ++x)
-      if (std::isfinite(levels_[0].depths[static_cast<std::size_t>(y * camera_.width + x)]))
+      if (std::isfinite(levels_[0].depths[camera_.pixel(x, y)]))
         return true;
   return false;
 }

@@ -58,7 +58,7 @@ float unmeasuredRay(const DepthImage& image, int x, int y)
     {
       if (row == y && column == x)
         continue;
-      const float depth = image.depths[static_cast<std::size_t>(row * image.camera.width + column)];
+      const float depth = image.depths[image.camera.pixel(column, row)];
       ++neighbours;
       measured += depth > 0.0F ? 1 : 0;
     }
@@ -96,7 +96,7 @@ Measurement measurementOf(const DepthImage& image, const SensorView& view)
   for (int y = 0; y < camera.height; ++y)
     for (int x = 0; x < camera.width; ++x)
     {
-      const auto pixel = static_cast<std::size_t>(y * camera.width + x);
+      const auto pixel = camera.pixel(x, y);
       const double depth = static_cast<double>(image.depths[pixel]);
       if (std::isnan(depth) || depth == 0.0)
         rays[pixel] = unmeasuredRay(image, x, y);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <ros/names.h>
+
 #include "base/text/name_list.h"
 #include "base/text/nearest_key.h"
 #include "gpu_planning_scene/error.h"

@@ -22,7 +22,7 @@ int endsNear(const PinholeCamera& camera, const std::vector<float>& depths, cons
   for (int y = 0; y < camera.height; ++y)
     for (int x = 0; x < camera.width; ++x)
     {
-      const auto depth = static_cast<double>(depths[static_cast<std::size_t>(y * camera.width + x)]);
+      const auto depth = static_cast<double>(depths[camera.pixel(x, y)]);
       const Vector3d ray = Vector3d((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0).normalized();
       if (depth < centre.z() + radius && (centre - centre.dot(ray) * ray).norm() < radius)
         ++count;
