@@ -35,6 +35,8 @@ class Sensors
           double frame_timeout, const MemoryGuard& memory, Diagnostics& diagnostics, const SensorsOptions& options);
   /// Calls stop().
   ~Sensors();
+  Sensors(const Sensors&) = delete;
+  Sensors& operator=(const Sensors&) = delete;
 
   /// Both throw nothing: the response has the error.
   ExcludeFromSensors::Response exclude(const ExcludeFromSensors::Request& request);
