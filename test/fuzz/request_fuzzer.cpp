@@ -294,7 +294,7 @@ class Handlers
     std::abort();
   }
 
-  /// What Sensors does with an image, on this thread.
+  /// Takes an image as Sensors does, on this thread.
   void see(const sensor_msgs::Image& message)
   {
     const Snapshot now = store_.snapshot();

@@ -18,6 +18,7 @@
 #include "node/node_client.h"
 #include "soak/answer_judge.h"
 #include "soak/latencies.h"
+#include "soak/memory_record.h"
 #include "soak/random_requests.h"
 #include "support/depth_camera.h"
 
@@ -201,7 +202,7 @@ class SensorsSoak : public RunningNode
       for (const auto& value : status.values)
       {
         if (value.key == "memory")
-          memories.push_back(std::stod(value.value));
+          memory.add(std::stod(value.value));
         if (value.key == "longest_lag")
           lags.add(std::stod(value.value));
         if (status.name.find("image_rect") != std::string::npos)
@@ -274,13 +275,6 @@ class SensorsSoak : public RunningNode
     ++comparisons;
   }
 
-  double leastMemory(double from, double to)
-  {
-    const auto at = [this](double fraction)
-    { return memories.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(memories.size())); };
-    return at(from) == at(to) ? 0.0 : *std::min_element(at(from), at(to));
-  }
-
   Isometry3d camera;
   std::vector<Frame> frames;
   std::atomic<int> frame{0};
@@ -290,7 +284,7 @@ class SensorsSoak : public RunningNode
   std::size_t invented = 0, missing = 0, comparisons = 0, most_voxels = 0, least_voxels = 1000000;
   std::unique_ptr<AnswerJudge> judge;
   Latencies latencies, latencies_of_watch, lags;
-  std::vector<double> memories;
+  MemoryRecord memory;
   std::map<std::string, std::string> counts;
 
  private:
@@ -362,10 +356,7 @@ TEST_F(SensorsSoak, TheMapFollowsTheWorldAndNoAnswerIsWrong)
   std::printf("watch: %d messages, %d judged, %d with a collision; ", watch_messages.load(), judged_verdicts.load(),
               found_collisions.load());
   latencies_of_watch.print();
-  const double early = leastMemory(0.25, 0.5);
-  const double late = leastMemory(0.75, 1.0);
-  std::printf("least memory: %.1f MiB in the second quarter, %.1f MiB in the last\n", early / 1048576.0,
-              late / 1048576.0);
+  memory.expectFlat(seconds);
   judge->expectNoWrongAnswer();
   EXPECT_EQ(0u, invented) << "voxels away from the truth";
   EXPECT_EQ(0u, missing) << "points of floor and wall without a voxel";
@@ -382,9 +373,6 @@ TEST_F(SensorsSoak, TheMapFollowsTheWorldAndNoAnswerIsWrong)
   }
   EXPECT_EQ("0", counts["rejected"]);
   EXPECT_EQ(0, history.gaps());
-  constexpr double kShortestForMemory = 120.0;  // seconds
-  if (seconds >= kShortestForMemory)
-    EXPECT_LT(late, 1.1 * early + 8e6);
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

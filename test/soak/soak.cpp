@@ -18,6 +18,7 @@
 #include "node/persistent_call.h"
 #include "soak/answer_judge.h"
 #include "soak/latencies.h"
+#include "soak/memory_record.h"
 #include "soak/random_requests.h"
 
 extern char** environ;
@@ -165,15 +166,6 @@ class Soak : public RunningNode
     }
   }
 
-  /// The least memory in bytes that the diagnostics reported in a part of the run; `from` and `to` are fractions of the
-  /// run. While no device is open, the node uses least: an open device on llvmpipe needs some 300 MB more.
-  double leastMemory(double from, double to)
-  {
-    const auto at = [this](double fraction)
-    { return memories.begin() + static_cast<std::ptrdiff_t>(fraction * static_cast<double>(memories.size())); };
-    return at(from) == at(to) ? 0.0 : *std::min_element(at(from), at(to));
-  }
-
   /// Whether enough has happened for the test to mean something.
   bool hasHappenedEnough()
   {
@@ -187,7 +179,7 @@ class Soak : public RunningNode
   std::unique_ptr<AnswerJudge> judge;
   std::mutex mutex;
   Latencies latencies;
-  std::vector<double> memories;
+  MemoryRecord memory;
   double losses = 0.0;
 };
 
@@ -209,7 +201,7 @@ TEST_F(Soak, NoAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
                                                          for (const auto& value : message->status.at(0).values)
                                                          {
                                                            if (value.key == "memory")
-                                                             memories.push_back(std::stod(value.value));
+                                                             memory.add(std::stod(value.value));
                                                            if (value.key == "device_losses")
                                                              losses = std::stod(value.value);
                                                          }
@@ -236,10 +228,7 @@ TEST_F(Soak, NoAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
   std::printf("%g s: %d requests, %d changes, %d refused, %d busy, %d clients killed, %g devices lost\n", seconds,
               requests.load(), changes.load(), refused.load(), busy.load(), killed.load(), losses);
   latencies.print();
-  const double early = leastMemory(0.25, 0.5);
-  const double late = leastMemory(0.75, 1.0);
-  std::printf("least memory: %.1f MiB in the second quarter, %.1f MiB in the last\n", early / 1048576.0,
-              late / 1048576.0);
+  memory.expectFlat(seconds);
   judge->expectNoWrongAnswer();
   EXPECT_EQ(0, history.gaps());
   EXPECT_EQ(0, lost) << "requests without a reply";
@@ -249,11 +238,6 @@ TEST_F(Soak, NoAnswerIsWrongNoReplyIsLostAndMemoryIsFlat)
   EXPECT_GT(changes, 50);
   EXPECT_GT(killed, 5);
   EXPECT_GT(losses, 0.0) << "the test is to lose devices";
-  // A device is lost about every four seconds, so a shorter run may never be without one for part of a quarter. And the
-  // address sanitizer keeps the first 256 MB that are freed.
-  constexpr double kShortestForMemory = 120.0;  // seconds
-  if (seconds >= kShortestForMemory)
-    EXPECT_LT(late, 1.1 * early + 8e6);
 }
 
 /// Sends requests until the process is killed.

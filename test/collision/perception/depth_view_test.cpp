@@ -41,7 +41,7 @@ TEST(DepthView, NeverSeesBehindABallInFrontOfWhichARayEnds)
   int refuted = 0;
   for (int k = 0; k < 200; ++k)
   {
-    std::vector<float> depths(67 * 41, 3.0F);
+    std::vector<float> depths(std::size_t{67} * 41, 3.0F);
     for (int i = 0; i < 4; ++i)  // some pixels are nearer, some are no ray
     {
       depths[generator() % depths.size()] = static_cast<float>(1.5 + unit(generator));
@@ -70,7 +70,7 @@ TEST(DepthView, NeverSeesBehindABallInFrontOfWhichARayEnds)
 TEST(DepthView, SeesBehindBallsThatAreWellInFrontOfAWall)
 {
   const PinholeCamera camera{64, 48, 60.0, 60.0, 31.5, 23.5};
-  const DepthView view(camera, std::vector<float>(64 * 48, 2.0F));
+  const DepthView view(camera, std::vector<float>(std::size_t{64} * 48, 2.0F));
   EXPECT_TRUE(view.seesBehind({0.0, 0.0, 1.0}, 0.05));
   EXPECT_TRUE(view.seesBehind({0.0, 0.0, 1.9}, 0.05));
   EXPECT_TRUE(view.seesBehind({0.2, -0.2, 0.6}, 0.4)) << "a large part of the image";
@@ -79,7 +79,7 @@ TEST(DepthView, SeesBehindBallsThatAreWellInFrontOfAWall)
   EXPECT_FALSE(view.seesBehind({1.5, 0.0, 1.0}, 0.05)) << "beside the image";
   EXPECT_FALSE(view.seesBehind({0.0, 0.0, -1.0}, 0.05)) << "behind the camera";
   EXPECT_FALSE(view.seesBehind({0.0, 0.0, 0.03}, 0.05)) << "around the camera";
-  EXPECT_FALSE(DepthView(camera, std::vector<float>(64 * 48, kInfinite)).seesBehind({0.0, 0.0, 1.0}, 0.05))
+  EXPECT_FALSE(DepthView(camera, std::vector<float>(std::size_t{64} * 48, kInfinite)).seesBehind({0.0, 0.0, 1.0}, 0.05))
       << "no ray is measured";
 }
 
@@ -89,9 +89,9 @@ TEST(DepthView, DoesNotSeeBehindABallBesideANearerSurface)
   const PinholeCamera camera{64, 48, 60.0, 60.0, 31.5, 23.5};
   const auto sees = [&](int last_column)
   {
-    std::vector<float> depths(64 * 48, 5.0F);
+    std::vector<float> depths(std::size_t{64} * 48, 5.0F);
     for (int y = 0; y < 48; ++y)
-      std::fill_n(depths.begin() + 64 * y, last_column + 1, 0.5F);
+      std::fill_n(depths.begin() + std::ptrdiff_t{64} * y, last_column + 1, 0.5F);
     return DepthView(camera, depths).seesBehind({0.0, 0.0, 2.0}, 0.04);
   };
   EXPECT_FALSE(sees(29)) << "one pixel beside it";

@@ -198,7 +198,7 @@ class OccupancyMapOfACamera : public testing::Test
   /// All pixels have this depth, except those of the middle quarter.
   std::size_t see(OccupancyMap& map, float depth, float middle)
   {
-    DepthImage image{{64, 48, 60.0, 60.0, 31.5, 23.5}, std::vector<float>(64 * 48, depth)};
+    DepthImage image{{64, 48, 60.0, 60.0, 31.5, 23.5}, std::vector<float>(std::size_t{64} * 48, depth)};
     for (std::size_t y = 12; y < 36; ++y)
       std::fill_n(image.depths.begin() + static_cast<std::ptrdiff_t>(64 * y + 16), 32, middle);
     view_.time += 1.0;
@@ -411,7 +411,7 @@ TEST_F(OccupancyMapOfACamera, KeepsAThinThingThatItCannotMeasure)
 {
   // A pole is measured once. Afterwards, its column of pixels has no depth.
   OccupancyMap map(options_);
-  DepthImage image{{64, 48, 60.0, 60.0, 31.5, 23.5}, std::vector<float>(64 * 48, 4.05F)};
+  DepthImage image{{64, 48, 60.0, 60.0, 31.5, 23.5}, std::vector<float>(std::size_t{64} * 48, 4.05F)};
   const auto set_column = [&](float depth)
   {
     for (std::size_t y = 0; y < 48; ++y)
