@@ -122,8 +122,21 @@ class FreshNode(unittest.TestCase):
         limited = []
         rospy.Subscriber("limited_command", JointState, limited.append)
         program = subprocess.Popen([sys.executable, os.path.join(ROOT, "scripts", "limit_speed.py")])
+
+        def answer_to(velocity):
+            """The limited velocity, or None if no answer comes in a second."""
+            limited.clear()
+            commands.publish(JointState(name=joints, velocity=list(velocity)))
+            for _ in range(1000):
+                if limited:
+                    return np.array(limited[0].velocity)
+                rospy.sleep(0.001)
+            return None
+
         try:
-            while commands.get_num_connections() == 0 or states.get_num_connections() < 2:
+            end = rospy.get_time() + PATIENCE
+            while states.get_num_connections() < 2 or answer_to(np.zeros(6)) is None:  # an early answer may be lost
+                self.assertLess(rospy.get_time(), end, "limit_speed.py does not answer")
                 rospy.sleep(0.05)
 
             def drive(state, velocity, count):
@@ -133,11 +146,8 @@ class FreshNode(unittest.TestCase):
                     states.publish(JointState(name=joints, position=state.tolist(),
                                               header=Header(stamp=rospy.Time.now())))
                     rospy.sleep(0.02)  # joint_states and command are two connections
-                    limited.clear()
-                    commands.publish(JointState(name=joints, velocity=velocity.tolist()))
-                    while not limited:
-                        rospy.sleep(0.001)
-                    allowed = np.array(limited[0].velocity)
+                    allowed = answer_to(velocity)
+                    self.assertIsNotNone(allowed, "limit_speed.py does not answer")
                     shares.append(allowed @ velocity / (velocity @ velocity))
                     state = state + 0.05 * allowed
                     self.assertGreater(distance(state), 0.0, state)
@@ -151,11 +161,7 @@ class FreshNode(unittest.TestCase):
             _, shares = drive(near, -velocity, 3)
             self.assertEqual([1.0, 1.0, 1.0], shares)
             rospy.sleep(0.3)
-            limited.clear()
-            commands.publish(JointState(name=joints, velocity=velocity.tolist()))
-            while not limited:
-                rospy.sleep(0.001)
-            self.assertEqual([0.0] * 6, list(limited[0].velocity), "the joint values are too old")
+            self.assertEqual([0.0] * 6, list(answer_to(velocity)), "the joint values are too old")
         finally:
             program.send_signal(signal.SIGINT)
             program.wait(PATIENCE)
