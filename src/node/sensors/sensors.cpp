@@ -232,7 +232,7 @@ void Sensors::use(const Sensor& sensor)
 
   const std::lock_guard<std::mutex> lock(map_mutex_);
   const PlanningScene& scene = *measured.now.scene;
-  forgetOldNames(scene, measured.now.state);
+  followObjects(scene, measured.now.state);
   const auto add = [&](const auto& measurement)
   { return map_.add(measurement, view, scene, measured.state.data(), excluded_); };
   const auto* image = std::get_if<sensor_msgs::Image>(&message);
@@ -248,7 +248,7 @@ void Sensors::use(const Sensor& sensor)
 
 /// Objects that were attached since the last measurement lose their voxels, and ids of removed objects are not excluded
 /// any more. map_mutex_ is held.
-void Sensors::forgetOldNames(const PlanningScene& scene, const std::vector<double>& state)
+void Sensors::followObjects(const PlanningScene& scene, const std::vector<double>& state)
 {
   const std::set<std::string> attached = attachedIds(scene);
   if (const std::set<std::string> added = difference(attached, attached_); !added.empty())

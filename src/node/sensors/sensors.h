@@ -78,7 +78,7 @@ class Sensors
   void run();
   bool take(Sensor& sensor);
   void use(const Sensor& sensor);
-  void forgetOldNames(const PlanningScene& scene, const std::vector<double>& state);
+  void followObjects(const PlanningScene& scene, const std::vector<double>& state);
   std::uint64_t publish();
   void republish();
   double largestPadding() const;
