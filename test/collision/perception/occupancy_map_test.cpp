@@ -443,6 +443,22 @@ TEST_F(OccupancyMapOfACamera, KeepsAVoxelBetweenTheRowsOfAScanner)
   EXPECT_TRUE(isOccupied(map, {3.01, 0.05, 0.07}));
 }
 
+TEST_F(OccupancyMapOfACamera, SeesThroughNoVoxelBeyondTheRangeOfAScanner)
+{
+  OccupancyMap map(options_);
+  view_.sensor = at(0.0, 0.0, 0.0);
+  std::vector<Vector3f> wall;
+  for (int y = -200; y <= 200; ++y)
+    for (int z = -200; z <= 200; ++z)
+      wall.emplace_back(8.0F, 0.01F * static_cast<float>(y), 0.01F * static_cast<float>(z));
+  const std::vector<Vector3f> points = {{2.05F, 0.05F, 0.05F}, {4.05F, 0.05F, 0.05F}};
+  map.add(points, view_, scene_, state_.data());
+  view_.max_range = 3.0;
+  map.add(wall, view_, scene_, state_.data());
+  EXPECT_FALSE(isOccupied(map, {2.05, 0.05, 0.05}));
+  EXPECT_TRUE(isOccupied(map, {4.05, 0.05, 0.05}));
+}
+
 TEST_F(OccupancyMapOfACamera, TakesCloudsFromAllDirections)
 {
   const std::uint64_t seed = 3;
