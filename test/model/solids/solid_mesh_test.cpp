@@ -367,7 +367,7 @@ TEST(SolidMesh, HasAllThatItsShellsHaveWhateverTheirDirections)
   for (int repetition = 0; repetition < repetitions(40, 2000); ++repetition)
   {
     // A long bar through each of the bodies: neither is entirely in the other. Its ends may both be in the body.
-    const MeshPointer body = bodies[repetition % 3];
+    const MeshPointer& body = bodies[repetition % 3];
     const Eigen::Isometry3d pose =
         Eigen::Translation3d(0.5 * Vector3d(uniform(generator), uniform(generator), uniform(generator))) *
         Eigen::Quaterniond::UnitRandom();
@@ -419,7 +419,7 @@ TEST(SolidMesh, HasAllThatItsShellsHaveWhateverTheirDirections)
 
 TEST(SolidMesh, KeepsCavities)
 {
-  const auto boxAt = [](double size, const Vector3d& at)
+  const auto box_at = [](double size, const Vector3d& at)
   { return placed(cube(), Eigen::Isometry3d(Eigen::Translation3d(at)), 0.5 * size); };
   const Vector3d origin = Vector3d::Zero();
   const Vector3d in_middle(0.01, 0.02, 0.03);
@@ -428,19 +428,19 @@ TEST(SolidMesh, KeepsCavities)
   for (const double away : {-1.7, 5.0})
     for (const bool is_out : {false, true})
     {
-      const MeshPointer other = is_out ? insideOut(boxAt(2.0, {away, 0.0, 0.0})) : boxAt(2.0, {away, 0.0, 0.0});
+      const MeshPointer other = is_out ? insideOut(box_at(2.0, {away, 0.0, 0.0})) : box_at(2.0, {away, 0.0, 0.0});
       for (const bool mirrored : {false, true})
       {
         const auto with = [&](const MeshPointer& mesh)
         { return solidMeshOf(together(mirrored ? insideOut(mesh) : mesh, other)); };
-        const MeshPointer hollow = together(boxAt(2.0, origin), insideOut(boxAt(1.2, origin)));
+        const MeshPointer hollow = together(box_at(2.0, origin), insideOut(box_at(1.2, origin)));
         EXPECT_FALSE(contains(*with(hollow), in_middle));
         EXPECT_TRUE(contains(*with(hollow), in_wall));
         EXPECT_TRUE(contains(*with(hollow), {away - 0.9, 0.0, 0.0}));
-        EXPECT_TRUE(contains(*with(together(boxAt(2.0, origin), boxAt(1.2, origin))), in_middle)) << "same direction";
-        for (const MeshPointer& island : {boxAt(0.6, origin), insideOut(boxAt(0.6, origin))})
+        EXPECT_TRUE(contains(*with(together(box_at(2.0, origin), box_at(1.2, origin))), in_middle)) << "same direction";
+        for (const MeshPointer& island : {box_at(0.6, origin), insideOut(box_at(0.6, origin))})
           EXPECT_TRUE(contains(*with(together(hollow, island)), in_middle)) << "a body in the cavity";
-        const MeshPointer islands = together(boxAt(0.6, origin), insideOut(boxAt(0.6, {0.2, 0.0, 0.0})));
+        const MeshPointer islands = together(box_at(0.6, origin), insideOut(box_at(0.6, {0.2, 0.0, 0.0})));
         EXPECT_TRUE(contains(*with(together(hollow, islands)), in_middle)) << "two bodies in the cavity";
         EXPECT_FALSE(contains(*with(together(hollow, islands)), {-0.45, 0.02, 0.03})) << "beside them";
       }
