@@ -49,13 +49,25 @@ class MeshPair
 {
  public:
   MeshPair(const PreparedMesh& a, const PreparedMesh& b, const Motion& b_in_a, const Range& range)
-    : a_(a), b_(b), b_in_a_(b_in_a), rounded_(b_in_a.toDouble()), required_(range.required), best_(range.limit)
+    : a_(a),
+      b_(b),
+      b_in_a_(b_in_a),
+      rounded_(b_in_a.toDouble()),
+      slack_(roundingOf(b, rounded_)),
+      required_(range.required),
+      best_(range.limit)
   {
     descend(0, 0);
   }
   Quad best() const { return best_; }
 
  private:
+  static double roundingOf(const PreparedMesh& mesh, const Eigen::Isometry3d& motion)
+  {
+    const BoundingBox& box = mesh.nodes()[0].box;
+    return 2e-15 * (box.center.norm() + box.half.norm() + motion.translation().norm());
+  }
+
   double bound(std::uint32_t a, std::uint32_t b) const
   {
     return leastDistance(a_.nodes()[a].box, b_.nodes()[b].box, rounded_);
@@ -69,6 +81,10 @@ class MeshPair
       return;
     if (node_a.child == 0 && node_b.child == 0)
     {
+      const TriangleCorners& of_b = b_.corners()[node_b.triangle];
+      const TriangleCorners rounded = {rounded_ * of_b[0], rounded_ * of_b[1], rounded_ * of_b[2]};
+      if (leastDistance(a_.corners()[node_a.triangle], rounded) - slack_ > best_)
+        return;
       const auto& corners = b_.triangles()[node_b.triangle].corners;
       const Triangle moved({b_in_a_ * corners[0], b_in_a_ * corners[1], b_in_a_ * corners[2]});
       best_ = std::min(best_, oracle::distance(a_.triangles()[node_a.triangle], moved, best_));
@@ -89,6 +105,7 @@ class MeshPair
   const PreparedMesh& b_;
   Motion b_in_a_;
   Eigen::Isometry3d rounded_;
+  double slack_;  // metres; exceeds the rounding of the corners of b that are moved in double
   Quad required_;
   Quad best_;
 };

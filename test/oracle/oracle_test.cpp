@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "oracle/oracle.h"
+#include "oracle/triangle.h"
 
 using namespace gpu_planning_scene::core;
 using oracle::Motion;
@@ -138,6 +139,46 @@ TEST(Oracle, TrianglesAtKnownDistances)
   expectDistance(kFlat, kFlat, shift(0.1, 0.1, 0), 0.0);                                               // overlapping
   expectDistance(kFlat, triangle({0.1, 0.1, 0}, {0.2, 0.1, 0}, {0.1, 0.2, 0}), shift(0, 0, 0), 0.0);   // contained
   expectDistance(kFlat, triangle({0, 0, 0}, {-1, 0, 0}, {0, 0, 1}), shift(0, 0, 0), 0.0);  // a common vertex
+}
+
+TEST(Oracle, BoundsInDoubleAreBelowTheDistanceOfTriangles)
+{
+  std::mt19937_64 random(11);
+  std::normal_distribution<double> normal;
+  const auto near = [&](const Eigen::Vector3d& center, double size)
+  { return Eigen::Vector3d(center + size * Eigen::Vector3d(normal(random), normal(random), normal(random))); };
+  const auto exact = [](const oracle::TriangleCorners& t) {
+    return oracle::Triangle({oracle::Vector(t[0]), oracle::Vector(t[1]), oracle::Vector(t[2])});
+  };
+  std::size_t apart = 0;
+  std::size_t tight = 0;
+  for (int i = 0; i < 20000; ++i)
+  {
+    // From touching triangles to distant ones, from 10 metres across to slivers, also a kilometre from the origin.
+    const Eigen::Vector3d center = near({0, 0, 0}, i % 3 == 0 ? 1000.0 : 1.0);
+    const double thickness = std::pow(10.0, -(i % 17));
+    oracle::TriangleCorners a;
+    oracle::TriangleCorners b;
+    for (oracle::TriangleCorners* t : {&a, &b})
+    {
+      const double offset = t == &b ? std::pow(10.0, -(i % 11)) : 0.0;
+      (*t)[0] = near(center, 1.0) + Eigen::Vector3d(0, 0, offset);
+      (*t)[1] = near((*t)[0], 10.0);
+      (*t)[2] = near((*t)[1], thickness);
+    }
+    if (i % 5 == 0)
+      b = {a[1], a[2] + Eigen::Vector3d(0, 0, thickness), a[0]};  // an edge, or nearly, in common
+    const oracle::Quad distance = oracle::distance(exact(a), exact(b), 1e6);
+    const double bound = oracle::leastDistance(a, b);
+    EXPECT_LE(bound, distance) << i;
+    if (distance > 0)
+    {
+      ++apart;
+      tight += bound > distance - 1e-9 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(apart, 10000U);
+  EXPECT_GT(tight, apart * 9 / 10);
 }
 
 TEST(Oracle, TrianglesWithoutAreaAreSegmentsAndPoints)

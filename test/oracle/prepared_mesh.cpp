@@ -59,10 +59,10 @@ HalfAngle solidAngle(const Vector& a, const Vector& b, const Vector& c)
   return {static_cast<double>(numerator), static_cast<double>(denominator)};
 }
 /// The sum of the solid angles of triangles around a point.
-double angleOf(const std::vector<SolidCorners>& triangles, const Vector& point)
+double angleOf(const std::vector<TriangleCorners>& triangles, const Vector& point)
 {
   double angle = 0.0;
-  for (const SolidCorners& corners : triangles)
+  for (const TriangleCorners& corners : triangles)
   {
     std::array<Eigen::Vector3d, 3> d;
     for (int i = 0; i < 3; ++i)
@@ -82,7 +82,7 @@ double angleOf(const std::vector<SolidCorners>& triangles, const Vector& point)
 }
 
 /// Whether most of several rays from a point cross an odd number of triangles.
-bool crossesAnOddNumber(const std::vector<SolidCorners>& triangles, const Eigen::Vector3d& point)
+bool crossesAnOddNumber(const std::vector<TriangleCorners>& triangles, const Eigen::Vector3d& point)
 {
   constexpr int kRays = 9;
   int odd = 0;
@@ -90,7 +90,7 @@ bool crossesAnOddNumber(const std::vector<SolidCorners>& triangles, const Eigen:
   {
     const Eigen::Vector3d along(std::cos(1.7 + 2.3 * ray), std::sin(0.4 + 1.9 * ray), std::cos(0.3 + 1.1 * ray));
     bool is_odd = false;
-    for (const SolidCorners& t : triangles)
+    for (const TriangleCorners& t : triangles)
     {
       Eigen::Matrix3d columns;
       columns << t[1] - t[0], t[2] - t[0], -along;
@@ -123,6 +123,7 @@ PreparedMesh::PreparedMesh(const SolidMesh& solid)
   {
     const auto corner = [&](int i) { return mesh.vertices[t[i]]; };
     triangles_.emplace_back(std::array<Vector, 3>{Vector(corner(0)), Vector(corner(1)), Vector(corner(2))});
+    corners_.push_back({corner(0), corner(1), corner(2)});
     Eigen::AlignedBox3d box(corner(0));
     boxes.push_back(box.extend(corner(1)).extend(corner(2)));
   }
@@ -194,7 +195,7 @@ void PreparedMesh::findComponents(const SolidMesh& solid)
     if (solid.roles[t] == TriangleRole::Surface)
       continue;
     const auto& vertices = mesh.triangles[t];
-    std::vector<SolidCorners>& corners =
+    std::vector<TriangleCorners>& corners =
         solid.roles[t] == TriangleRole::Winding ? winding_triangles_ : parity_triangles_;
     corners.push_back({mesh.vertices[vertices[0]], mesh.vertices[vertices[1]], mesh.vertices[vertices[2]]});
     for (const Eigen::Vector3d& corner : corners.back())

@@ -23,8 +23,6 @@ struct BoundingBox
 /// double.
 double leastDistance(const BoundingBox& a, const BoundingBox& b, const Eigen::Isometry3d& b_in_a);
 
-using SolidCorners = std::array<Eigen::Vector3d, 3>;
-
 /// A closed mesh with a tree of boxes over its triangles, its connected components, and the solid that its triangles
 /// bound by their roles.
 class PreparedMesh
@@ -41,6 +39,8 @@ class PreparedMesh
   };
   const std::vector<Node>& nodes() const { return nodes_; }
   const std::vector<Triangle>& triangles() const { return triangles_; }
+  /// The corners of the triangles in double; they are exact.
+  const std::vector<TriangleCorners>& corners() const { return corners_; }
 
   /// One vertex of each connected component.
   const std::vector<Eigen::Vector3d>& componentPoints() const { return component_points_; }
@@ -56,10 +56,11 @@ class PreparedMesh
              const std::vector<Eigen::AlignedBox3d>& boxes);
 
   std::vector<Triangle> triangles_;
+  std::vector<TriangleCorners> corners_;
   std::vector<Node> nodes_;
   std::vector<Eigen::Vector3d> component_points_;
-  std::vector<SolidCorners> winding_triangles_;
-  std::vector<SolidCorners> parity_triangles_;
+  std::vector<TriangleCorners> winding_triangles_;
+  std::vector<TriangleCorners> parity_triangles_;
   Eigen::AlignedBox3d solid_box_;
 };
 }  // namespace gpu_planning_scene::core::oracle

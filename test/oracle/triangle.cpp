@@ -92,7 +92,61 @@ Quad leastHeight(const Triangle& face, const Triangle& other, const std::array<Q
       best = abs(heights[i]);
   return best;
 }
+/// The vector from a segment to another one, between their nearest points; inexact for nearly parallel segments.
+Eigen::Vector3d between(const Eigen::Vector3d& p, const Eigen::Vector3d& u, const Eigen::Vector3d& r,
+                        const Eigen::Vector3d& v)
+{
+  const auto share = [](double numerator, double denominator)
+  { return denominator > 0.0 ? std::clamp(numerator / denominator, 0.0, 1.0) : 0.0; };
+  const Eigen::Vector3d w = p - r;
+  const double uu = u.squaredNorm();
+  const double vv = v.squaredNorm();
+  const double uv = u.dot(v);
+  double on_first = share(uv * v.dot(w) - vv * u.dot(w), uu * vv - uv * uv);
+  const double on_second = share(uv * on_first + v.dot(w), vv);
+  on_first = share(uv * on_second - u.dot(w), uu);
+  return r + on_second * v - p - on_first * u;
+}
+
+/// The distance of two planes perpendicular to `direction` between which there is no point of the triangles.
+double gapAlong(const Eigen::Vector3d& direction, const TriangleCorners& a, const TriangleCorners& b)
+{
+  const double length = direction.norm();
+  if (!(length > 0.0))
+    return 0.0;
+  double least_a = direction.dot(a[0]);
+  double most_a = least_a;
+  double least_b = direction.dot(b[0]);
+  double most_b = least_b;
+  for (int i = 1; i < 3; ++i)
+  {
+    const double along_a = direction.dot(a[i]);
+    const double along_b = direction.dot(b[i]);
+    least_a = std::min(least_a, along_a);
+    most_a = std::max(most_a, along_a);
+    least_b = std::min(least_b, along_b);
+    most_b = std::max(most_b, along_b);
+  }
+  return std::max(least_b - most_a, least_a - most_b) / length;
+}
 }  // namespace
+
+double leastDistance(const TriangleCorners& a, const TriangleCorners& b)
+{
+  // Any direction gives a lower bound. Those of the two normals and of the nearest edges give the distance itself.
+  Eigen::Vector3d shortest = b[0] - a[0];
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+    {
+      const Eigen::Vector3d vector = between(a[i], a[(i + 1) % 3] - a[i], b[k], b[(k + 1) % 3] - b[k]);
+      if (vector.squaredNorm() < shortest.squaredNorm())
+        shortest = vector;
+    }
+  const double gap = std::max({gapAlong(shortest, a, b), gapAlong((a[1] - a[0]).cross(a[2] - a[0]), a, b),
+                               gapAlong((b[1] - b[0]).cross(b[2] - b[0]), a, b)});
+  const auto size = [](const TriangleCorners& t) { return t[0].norm() + t[1].norm() + t[2].norm(); };
+  return gap - 1e-14 * (size(a) + size(b));
+}
 
 Triangle::Triangle(const std::array<Vector, 3>& vertices) : corners(vertices)
 {

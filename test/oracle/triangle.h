@@ -18,6 +18,11 @@ struct Triangle
   std::array<Vector, 3> inward;  ///< for the edge from corner i: in the plane of the face, perpendicular to the edge
 };
 
+using TriangleCorners = std::array<Eigen::Vector3d, 3>;
+
+/// A lower bound of the distance of two triangles. It is computed in double and accounts for rounding.
+double leastDistance(const TriangleCorners& a, const TriangleCorners& b);
+
 /// The distance of two triangles; 0 if they have a common point. If the distance is at least `limit`, the result is
 /// some lower bound of at least `limit`.
 Quad distance(const Triangle& a, const Triangle& b, Quad limit);
