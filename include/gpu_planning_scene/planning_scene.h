@@ -133,6 +133,11 @@ struct PlanningScene
   std::map<std::string, Color> colors = {};                    ///< by object or link; they do not affect any check
   std::uint64_t revision = 0;
 
+  /// The object of the world, or the attached object, with this id; null if there is none. Valid until the scene
+  /// changes.
+  const WorldObject* findObject(const std::string& id) const;
+  const AttachedObject* findAttached(const std::string& id) const;
+
   /// Name of the body with this index.
   const std::string& bodyName(int body) const;
 

@@ -49,12 +49,10 @@ KnownFrames framesOf(const PlanningScene& scene)
 {
   const auto find_object = [&scene](const std::string& id) -> std::optional<ObjectFrame>
   {
-    for (const AttachedObject& object : scene.attached)
-      if (object.object.id == id)
-        return ObjectFrame{&object.object.pose, &object.object.subframes, object.link};
-    for (const WorldObject& object : scene.objects)
-      if (object.id == id)
-        return ObjectFrame{&object.pose, &object.subframes};
+    if (const AttachedObject* attached = scene.findAttached(id))
+      return ObjectFrame{&attached->object.pose, &attached->object.subframes, attached->link};
+    if (const WorldObject* object = scene.findObject(id))
+      return ObjectFrame{&object->pose, &object->subframes};
     return std::nullopt;
   };
   return {*scene.robot, scene.fixed_frames, find_object};

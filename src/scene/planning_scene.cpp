@@ -25,6 +25,20 @@ bool operator==(const JointTrajectory& a, const JointTrajectory& b)
          std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end(), same_point);
 }
 
+const WorldObject* PlanningScene::findObject(const std::string& id) const
+{
+  const auto found =
+      std::find_if(objects.begin(), objects.end(), [&id](const WorldObject& object) { return object.id == id; });
+  return found == objects.end() ? nullptr : &*found;
+}
+
+const AttachedObject* PlanningScene::findAttached(const std::string& id) const
+{
+  const auto found = std::find_if(attached.begin(), attached.end(),
+                                  [&id](const AttachedObject& each) { return each.object.id == id; });
+  return found == attached.end() ? nullptr : &*found;
+}
+
 const std::string& PlanningScene::bodyName(int body) const
 {
   const std::size_t links = robot->links().size();

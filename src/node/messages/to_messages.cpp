@@ -201,13 +201,6 @@ AllowedCollisionMatrixMessage messageOf(const AllowedCollisionMatrix& matrix, co
   return message;
 }
 
-bool isAttached(const PlanningScene& scene, const std::string& id)
-{
-  return std::any_of(
-      scene.attached.begin(), scene.attached.end(),
-      [&id](const AttachedObject& attached) { return attached.object.id == id; });
-}
-
 /// The change that makes the requested components of the scene, without the values of variables.
 SceneChange changeOf(const PlanningScene& scene, std::uint32_t components)
 {
@@ -244,8 +237,8 @@ SceneChange changeOf(const PlanningScene& scene, std::uint32_t components)
       change.link_scale[link.name] = scale;
     }
   for (const auto& [id, rule] : full.solids)
-    if (wanted(robot.linkIndex(id) >= 0 || !isAttached(scene, id) ? Components::WORLD_OBJECT_GEOMETRY
-                                                                  : Components::ROBOT_STATE_ATTACHED_OBJECTS))
+    if (wanted(robot.linkIndex(id) >= 0 || !scene.findAttached(id) ? Components::WORLD_OBJECT_GEOMETRY
+                                                                   : Components::ROBOT_STATE_ATTACHED_OBJECTS))
       change.solids[id] = rule;
   for (const ObjectChange& object : full.objects)
     if (wanted(object.id == kOctomapId ? Components::OCTOMAP : Components::WORLD_OBJECT_GEOMETRY))

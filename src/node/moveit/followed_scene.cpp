@@ -18,33 +18,19 @@ std::string listed(const std::set<std::string>& parts)
   return nameList({parts.begin(), parts.end()});
 }
 
-template <class Objects>
-bool hasObject(const Objects& objects, const std::string& id)
-{
-  return std::any_of(
-      objects.begin(), objects.end(), [&id](const auto& object) { return object.id == id; });
-}
-
-bool isCarried(const PlanningScene& scene, const std::string& id)
-{
-  return std::any_of(
-      scene.attached.begin(), scene.attached.end(),
-      [&id](const AttachedObject& attached) { return attached.object.id == id; });
-}
-
 /// Drops removals of objects that the scene does not have. After a fetch, a message can arrive that is older than the
 /// fetched scene.
 void dropRemovalsOfMissing(const PlanningScene& scene, SceneChange& change)
 {
   const auto is_void = [&scene](const ObjectChange& object)
   {
-    return object.operation == Operation::Remove && !object.id.empty() && !hasObject(scene.objects, object.id) &&
-           !isCarried(scene, object.id);
+    return object.operation == Operation::Remove && !object.id.empty() && !scene.findObject(object.id) &&
+           !scene.findAttached(object.id);
   };
   const auto is_void_detach = [&scene](const AttachedChange& attached)
   {
     return attached.object.operation == Operation::Remove && !attached.object.id.empty() &&
-           !isCarried(scene, attached.object.id);
+           !scene.findAttached(attached.object.id);
   };
   change.objects.erase(std::remove_if(change.objects.begin(), change.objects.end(), is_void), change.objects.end());
   std::vector<AttachedChange>& attached = change.state.attached;

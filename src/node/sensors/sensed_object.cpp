@@ -18,11 +18,8 @@ bool isSameCube(const PlacedShape& a, const PlacedShape& b)
 void replaceObject(SceneStore& store, const std::string& id, std::vector<PlacedShape> cubes)
 {
   const std::shared_ptr<const PlanningScene> scene = store.snapshot().scene;
-  const auto old = std::find_if(scene->objects.begin(), scene->objects.end(),
-                                [&id](const WorldObject& object) { return object.id == id; });
-  const bool is_there = old != scene->objects.end();
-  if (is_there ? std::equal(old->shapes.begin(), old->shapes.end(), cubes.begin(), cubes.end(), isSameCube)
-               : cubes.empty())
+  const WorldObject* old = scene->findObject(id);
+  if (old ? std::equal(old->shapes.begin(), old->shapes.end(), cubes.begin(), cubes.end(), isSameCube) : cubes.empty())
     return;
   ObjectChange change;
   change.id = id;

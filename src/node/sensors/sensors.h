@@ -5,7 +5,6 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <thread>
 #include <variant>
@@ -13,8 +12,9 @@
 
 #include "node/endpoints/endpoints.h"
 #include "node/messages/messages.h"
-#include "node/messages/sensor_messages.h"
+#include "node/sensors/sensed_map.h"
 #include "node/sensors/sensor_options.h"
+#include "node/sensors/sensor_record.h"
 #include "service/memory_guard.h"
 #include "service/scene_store.h"
 
@@ -65,23 +65,13 @@ class Sensors
     std::optional<Measured> waiting;
     std::optional<Measured> current;  // is used now, or waits for its frame
     ros::SteadyTime accepted;         // arrival of the newest measurement that max_rate lets through
-    ros::SteadyTime used_at;          // zero: none was used
-    std::uint64_t used = 0;
-    std::uint64_t dropped = 0;
-    std::uint64_t rejected = 0;
-    std::string fault;         // of the last measurement; empty if it was used
-    double lag = 0.0;          // seconds from the stamp of the last measurement to the scene with it
-    double longest_lag = 0.0;  // since the last status
+    SensorRecord record;
   };
 
   void receive(Sensor& sensor, Message message);
   void run();
   bool take(Sensor& sensor);
   void use(const Sensor& sensor);
-  void followObjects(const PlanningScene& scene, const std::vector<double>& state);
-  std::uint64_t publish();
-  void republish();
-  double largestPadding() const;
   void publishStatus();
 
   SceneStore& store_;
@@ -89,11 +79,7 @@ class Sensors
   const double frame_timeout_;
   const MemoryGuard& memory_;
 
-  std::mutex map_mutex_;  // guards the next four members
-  OccupancyMap map_;
-  std::set<std::string> excluded_;
-  std::set<std::string> attached_;  // objects whose voxels were removed when they were attached
-  bool hides_voxels_ = false;       // voxels that the robot touches are not in the scene
+  SensedMap map_;
 
   std::mutex waiting_mutex_;
   std::condition_variable arrived_;

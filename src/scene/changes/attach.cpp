@@ -64,10 +64,9 @@ void PlanningScene::attach(const std::string& object, const std::string& link,
       std::find_if(objects.begin(), objects.end(), [&](const WorldObject& known) { return known.id == object; });
   if (found == objects.end())
   {
-    for (const AttachedObject& known : attached)
-      if (known.object.id == object)
-        throw Error("object '" + object + "' is attached to link '" + robot->links().at(known.link).name +
-                    "' already; detach it first");
+    if (const AttachedObject* known = findAttached(object))
+      throw Error("object '" + object + "' is attached to link '" + robot->links().at(known->link).name +
+                  "' already; detach it first");
     throw Error("object '" + object + "' cannot be attached: the scene has no such object");
   }
   requireNotOctomap(object);

@@ -1,0 +1,61 @@
+#include "node/sensors/sensor_record.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <ros/this_node.h>
+
+namespace gpu_planning_scene::core
+{
+namespace
+{
+using diagnostic_msgs::DiagnosticStatus;
+
+constexpr double kLongestSilence = 1.0;  // seconds
+}  // namespace
+
+void SensorRecord::use(double seconds)
+{
+  ++used;
+  used_at = ros::SteadyTime::now();
+  fault.clear();
+  lag = seconds;
+  longest_lag = std::max(longest_lag, lag);
+}
+
+void SensorRecord::reject(const std::string& why)
+{
+  ++rejected;
+  fault = why;
+}
+
+DiagnosticStatus SensorRecord::status(const std::string& topic)
+{
+  DiagnosticStatus status;
+  status.name = ros::this_node::getName().substr(1) + ": sensor " + topic;
+  status.level = DiagnosticStatus::OK;
+  status.message = "measures";
+  if (!fault.empty())
+  {
+    status.level = DiagnosticStatus::ERROR;
+    status.message = "the octomap does not follow this sensor: " + fault;
+  }
+  else if (used_at.isZero() || (ros::SteadyTime::now() - used_at).toSec() > kLongestSilence)
+  {
+    status.level = DiagnosticStatus::WARN;
+    status.message = "no measurement for more than a second";
+  }
+  const auto add = [&status](const std::string& key, const std::string& value)
+  {
+    status.values.emplace_back();
+    status.values.back().key = key;
+    status.values.back().value = value;
+  };
+  add("used", std::to_string(used));
+  add("dropped", std::to_string(dropped));
+  add("rejected", std::to_string(rejected));
+  add("lag", std::to_string(lag));
+  add("longest_lag", std::to_string(std::exchange(longest_lag, 0.0)));
+  return status;
+}
+}  // namespace gpu_planning_scene::core

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+#include <ros/time.h>
+
+namespace gpu_planning_scene::core
+{
+/// What became of the measurements of a sensor. Not thread-safe.
+struct SensorRecord
+{
+  std::uint64_t used = 0;
+  std::uint64_t dropped = 0;
+  std::uint64_t rejected = 0;
+  ros::SteadyTime used_at;   ///< zero: none was used
+  std::string fault;         ///< of the last measurement; empty if it was used
+  double lag = 0.0;          ///< seconds from the stamp of the last used measurement to the scene with it
+  double longest_lag = 0.0;  ///< since the last call of status()
+
+  /// A measurement is in the scene.
+  void use(double seconds);
+  void reject(const std::string& why);
+
+  /// ERROR if the last measurement was rejected, WARN if none was used for a second.
+  diagnostic_msgs::DiagnosticStatus status(const std::string& topic);
+};
+}  // namespace gpu_planning_scene::core
