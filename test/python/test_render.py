@@ -1,10 +1,15 @@
 """render: pictures as arrays."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
 import unittest
 
 import numpy as np
 
 import gpu_planning_scene as gps
-from robots import Case, arm_scene, rail
+from robots import KR5, ROOT, Case, arm_scene, rail
 
 
 def red_pixels(image):
@@ -40,6 +45,26 @@ class Render(Case):
         ):
             self.assert_one_line(error, pattern, gps.render, scene, **options)
         self.assert_one_line(TypeError, "expected a PlanningScene", gps.render, None)
+
+
+class MovingPicture(Case):
+    def test_the_straight_motion_turns_red_and_the_plan_does_not(self):
+        if not KR5.exists():
+            self.skipTest("Debian's dart-doc is not here")
+        from PIL import Image
+
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder, "plan.gif")
+            program = [sys.executable, ROOT / "scripts" / "moving_picture", "--urdf", KR5, "--out", out]
+            subprocess.run([*program, "--pictures", "6", "--size", "160"], check=True, env=os.environ)
+            red = []
+            with Image.open(out) as animation:
+                for frame in range(animation.n_frames):
+                    animation.seek(frame)
+                    red.append(red_pixels(np.asarray(animation.convert("RGB"))))
+        # Equal pictures at the end of a motion are one frame.
+        self.assertGreater(max(red[:6]), min(red) + 100)
+        self.assertLess(max(red[7:]), min(red) + 20)
 
 
 if __name__ == "__main__":
