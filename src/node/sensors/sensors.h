@@ -10,6 +10,9 @@
 #include <variant>
 #include <vector>
 
+#include <sensor_msgs/Image.h>
+#include <sensor_msgs/PointCloud2.h>
+
 #include "node/endpoints/endpoints.h"
 #include "node/messages/messages.h"
 #include "node/sensors/sensed_map.h"
