@@ -62,6 +62,8 @@ class MeshPair
   Quad best() const { return best_; }
 
  private:
+  /// A bound of the rounding of a corner p of the mesh that a motion (R, t) moves in double. Rounding of R and t and
+  /// five roundings of R p + t add up to less than 9.6e-16 |p| + 5.6e-16 |t|.
   static double roundingOf(const PreparedMesh& mesh, const Eigen::Isometry3d& motion)
   {
     const BoundingBox& box = mesh.nodes()[0].box;
@@ -105,7 +107,7 @@ class MeshPair
   const PreparedMesh& b_;
   Motion b_in_a_;
   Eigen::Isometry3d rounded_;
-  double slack_;  // metres; exceeds the rounding of the corners of b that are moved in double
+  double slack_;  // metres; see roundingOf()
   Quad required_;
   Quad best_;
 };

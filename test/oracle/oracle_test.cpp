@@ -179,6 +179,36 @@ TEST(Oracle, BoundsInDoubleAreBelowTheDistanceOfTriangles)
   }
   EXPECT_GT(apart, 10000U);
   EXPECT_GT(tight, apart * 9 / 10);
+  for (const double height : {1e-155, 1e-158, 1e-161})  // the squares of such numbers underflow
+    EXPECT_LE(oracle::leastDistance({Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, height, 0), {1, 2 * height, 0}},
+                                    {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(1, height, 1), {1, 2 * height, 1}}),
+              1.0);
+}
+
+/// Corners of such meshes are rounded by 1e-10 m when they are moved in double.
+TEST(Oracle, MeshesFarFromTheirOriginsHaveTheDistanceOfNearOnes)
+{
+  std::mt19937_64 random(12);
+  std::normal_distribution<double> normal;
+  const Eigen::Vector3d offset(1048576.0, -524288.0, 262144.0);  // sums with small binary fractions are exact
+  for (int i = 0; i < 300; ++i)
+  {
+    std::array<std::vector<Eigen::Vector3d>, 2> corners;
+    for (int k = 0; k < 6; ++k)
+    {
+      const Eigen::Vector3d at(normal(random), normal(random), normal(random) + k / 3);
+      corners[k / 3].emplace_back((at * 1024.0).array().round().matrix() / 1024.0);
+    }
+    const auto mesh = [&](int m, const Eigen::Vector3d& by)
+    { return triangle(corners[m][0] + by, corners[m][1] + by, corners[m][2] + by); };
+    const PreparedShape a(mesh(0, {0, 0, 0}));
+    const Motion turn = randomMotion(random, 0.0);
+    Motion shifted = turn;
+    shifted.translation = turn.rotate(oracle::Vector(Eigen::Vector3d(-offset)));
+    const double near = oracle::distance(a, {}, PreparedShape(mesh(1, {0, 0, 0})), turn);
+    const double far = oracle::distance(a, {}, PreparedShape(mesh(1, offset)), shifted);
+    EXPECT_NEAR(near, far, 1e-15 + 1e-15 * near) << i;
+  }
 }
 
 TEST(Oracle, TrianglesWithoutAreaAreSegmentsAndPoints)

@@ -92,6 +92,7 @@ Quad leastHeight(const Triangle& face, const Triangle& other, const std::array<Q
       best = abs(heights[i]);
   return best;
 }
+
 /// The vector from a segment to another one, between their nearest points; inexact for nearly parallel segments.
 Eigen::Vector3d between(const Eigen::Vector3d& p, const Eigen::Vector3d& u, const Eigen::Vector3d& r,
                         const Eigen::Vector3d& v)
@@ -108,12 +109,13 @@ Eigen::Vector3d between(const Eigen::Vector3d& p, const Eigen::Vector3d& u, cons
   return r + on_second * v - p - on_first * u;
 }
 
-/// The distance of two planes perpendicular to `direction` between which there is no point of the triangles.
+/// The distance of two planes perpendicular to `direction` between which there is no point of the triangles. Negative
+/// if the projections of the triangles onto `direction` overlap.
 double gapAlong(const Eigen::Vector3d& direction, const TriangleCorners& a, const TriangleCorners& b)
 {
   const double length = direction.norm();
-  if (!(length > 0.0))
-    return 0.0;
+  if (!(length > 1e-140))
+    return 0.0;  // its square underflows, so the length is inexact
   double least_a = direction.dot(a[0]);
   double most_a = least_a;
   double least_b = direction.dot(b[0]);

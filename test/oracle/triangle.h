@@ -20,7 +20,8 @@ struct Triangle
 
 using TriangleCorners = std::array<Eigen::Vector3d, 3>;
 
-/// A lower bound of the distance of two triangles. It is computed in double and accounts for rounding.
+/// A lower bound of the distance of two triangles; it can be negative. It is computed in double and accounts for
+/// rounding.
 double leastDistance(const TriangleCorners& a, const TriangleCorners& b);
 
 /// The distance of two triangles; 0 if they have a common point. If the distance is at least `limit`, the result is

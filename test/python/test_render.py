@@ -1,5 +1,4 @@
 """render: pictures as arrays."""
-import os
 import pathlib
 import subprocess
 import sys
@@ -51,12 +50,15 @@ class MovingPicture(Case):
     def test_the_straight_motion_turns_red_and_the_plan_does_not(self):
         if not KR5.exists():
             self.skipTest("Debian's dart-doc is not here")
-        from PIL import Image
+        try:
+            from PIL import Image
+        except ImportError:
+            self.skipTest("python3-pil is not here")
 
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder, "plan.gif")
             program = [sys.executable, ROOT / "scripts" / "moving_picture", "--urdf", KR5, "--out", out]
-            subprocess.run([*program, "--pictures", "6", "--size", "160"], check=True, env=os.environ)
+            subprocess.run([*program, "--pictures", "6", "--size", "160"], check=True)
             red = []
             with Image.open(out) as animation:
                 for frame in range(animation.n_frames):
@@ -64,7 +66,7 @@ class MovingPicture(Case):
                     red.append(red_pixels(np.asarray(animation.convert("RGB"))))
         # Equal pictures at the end of a motion are one frame.
         self.assertGreater(max(red[:6]), min(red) + 100)
-        self.assertLess(max(red[7:]), min(red) + 20)
+        self.assertLess(max(red[6:]), min(red) + 20)
 
 
 if __name__ == "__main__":

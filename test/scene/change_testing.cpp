@@ -26,25 +26,6 @@ SceneChange only(const AttachedChange& attached)
   return change;
 }
 
-template <class Item, class Id>
-const Item* find(const std::vector<Item>& items, const std::string& id, const Id& id_of)
-{
-  const auto found = std::find_if(items.begin(), items.end(), [&](const Item& item) { return id_of(item) == id; });
-  return found == items.end() ? nullptr : &*found;
-}
-
-const WorldObject* findObject(const PlanningScene& scene, const std::string& id)
-{
-  return find(
-      scene.objects, id, [](const WorldObject& object) { return object.id; });
-}
-
-const AttachedObject* findCarried(const PlanningScene& scene, const std::string& id)
-{
-  return find(
-      scene.attached, id, [](const AttachedObject& attached) { return attached.object.id; });
-}
-
 void expectSamePose(const Eigen::Isometry3d& expected, const Eigen::Isometry3d& found, double tolerance)
 {
   EXPECT_LE((expected.matrix() - found.matrix()).cwiseAbs().maxCoeff(), tolerance) << expected.matrix() << "\n"
@@ -172,14 +153,14 @@ void expectSameScene(const PlanningScene& expected, const PlanningScene& found, 
   ASSERT_EQ(expected.objects.size(), found.objects.size());
   for (const WorldObject& object : expected.objects)
   {
-    const WorldObject* const other = findObject(found, object.id);
+    const WorldObject* const other = found.findObject(object.id);
     ASSERT_NE(nullptr, other) << object.id;
     expectSameObject(object, *other, tolerance);
   }
   ASSERT_EQ(expected.attached.size(), found.attached.size());
   for (const AttachedObject& attached : expected.attached)
   {
-    const AttachedObject* const other = findCarried(found, attached.object.id);
+    const AttachedObject* const other = found.findAttached(attached.object.id);
     ASSERT_NE(nullptr, other) << attached.object.id;
     expectSameObject(attached.object, other->object, tolerance);
     EXPECT_EQ(attached.link, other->link);
@@ -230,13 +211,13 @@ void SceneChanges::refused(const std::string& fragment, const AttachedChange& at
 
 const WorldObject& SceneChanges::object(const std::string& id) const
 {
-  const WorldObject* const found = findObject(scene_, id);
+  const WorldObject* const found = scene_.findObject(id);
   return found != nullptr ? *found : throw std::runtime_error("the world has no object " + id);
 }
 
 const AttachedObject& SceneChanges::carried(const std::string& id) const
 {
-  const AttachedObject* const found = findCarried(scene_, id);
+  const AttachedObject* const found = scene_.findAttached(id);
   return found != nullptr ? *found : throw std::runtime_error("no link carries " + id);
 }
 

@@ -22,8 +22,9 @@ class SensedMap
   /// must outlive this object. Throws Error if the scene already has an octomap, or if an option is not valid.
   SensedMap(SceneStore& store, const OccupancyMapOptions& options, double padding);
 
-  /// Puts a measurement into the map, and the map into the scene. `scene` is the newest one. `state`: of the time of
-  /// the measurement. Throws the errors of OccupancyMap::add and SceneStore::sense, and Error if voxels found no room.
+  /// Puts a measurement into the map, and the map into the scene. `now`: the newest scene. `state`: one value per
+  /// variable, of the time of the measurement. Throws the errors of OccupancyMap::add and SceneStore::sense. Throws
+  /// Error if some voxels found no room; the others are in the scene then.
   void add(const Measurement& measurement, const SensorView& view, const Snapshot& now,
            const std::vector<double>& state);
 
@@ -34,7 +35,8 @@ class SensedMap
   /// Forgets all voxels. Returns the revision of the scene without them.
   std::uint64_t clear();
 
-  /// The robot may have left voxels that are hidden because it touched them: puts them into the scene.
+  /// Puts voxels into the scene that were hidden because the robot touched them, if it has left them. An error is
+  /// logged, not thrown.
   void republish();
 
  private:

@@ -14,12 +14,12 @@ using diagnostic_msgs::DiagnosticStatus;
 constexpr double kLongestSilence = 1.0;  // seconds
 }  // namespace
 
-void SensorRecord::use(double seconds)
+void SensorRecord::use(double its_lag)
 {
   ++used;
   used_at = ros::SteadyTime::now();
   fault.clear();
-  lag = seconds;
+  lag = its_lag;
   longest_lag = std::max(longest_lag, lag);
 }
 

@@ -8,7 +8,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// What became of the measurements of a sensor. Not thread-safe.
+/// Counts of a sensor's measurements, and its diagnostic status. Not thread-safe.
 struct SensorRecord
 {
   std::uint64_t used = 0;
@@ -19,11 +19,12 @@ struct SensorRecord
   double lag = 0.0;          ///< seconds from the stamp of the last used measurement to the scene with it
   double longest_lag = 0.0;  ///< since the last call of status()
 
-  /// A measurement is in the scene.
-  void use(double seconds);
+  /// Counts a measurement that is in the scene. `its_lag`: seconds, see `lag`.
+  void use(double its_lag);
+  /// Counts a measurement that is not in the scene. `why`: one line.
   void reject(const std::string& why);
 
-  /// ERROR if the last measurement was rejected, WARN if none was used for a second.
+  /// ERROR if the last measurement was rejected, WARN if none was used for a second. Resets `longest_lag`.
   diagnostic_msgs::DiagnosticStatus status(const std::string& topic);
 };
 }  // namespace gpu_planning_scene::core

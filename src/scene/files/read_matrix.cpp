@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <set>
 
 #include "base/text/name_list.h"
@@ -53,8 +52,7 @@ void warnOfForbiddenPairs(const YamlValue& name, const SceneReader& reader, cons
     others.push_back(link.name);
   for (const AttachedObject& attached : scene.attached)
     others.push_back(attached.object.id);
-  const auto is_it = [&](const WorldObject& object) { return object.id == name.text(); };
-  if (std::none_of(scene.objects.begin(), scene.objects.end(), is_it))
+  if (!scene.findObject(name.text()))
     for (const WorldObject& object : scene.objects)
       others.push_back(object.id);
   std::vector<std::string> forbidden;
