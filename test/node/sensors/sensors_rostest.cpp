@@ -288,9 +288,10 @@ TEST_F(SensorsOfANode, AVoxelThatTheRobotTouchedComesBackWithoutAMeasurement)
     change.robot_state.joint_state = stateMessage(state).joint_state;
     apply(change);
   };
+  ros::WallDuration(0.5).sleep();  // for the last image, which would hide voxels already before they are counted
+  const std::size_t all = voxelsNear(there, 0.15);
   move_to(turned);
   state_ = turned;
-  const std::size_t all = voxelsNear(there, 0.15);
   EXPECT_TRUE(seesUntil([&] { return voxelsNear(there, 0.15) < all; })) << "the robot touches voxels";
   ros::WallDuration(0.5).sleep();  // for the last image
   const std::size_t others = voxelsNear(there, 0.15);
