@@ -196,7 +196,7 @@ TEST(Oracle, MeshesFarFromTheirOriginsHaveTheDistanceOfNearOnes)
     std::array<std::vector<Eigen::Vector3d>, 2> corners;
     for (int k = 0; k < 6; ++k)
     {
-      const Eigen::Vector3d at(normal(random), normal(random), normal(random) + k / 3);
+      const Eigen::Vector3d at(normal(random), normal(random), normal(random) + (k < 3 ? 0.0 : 1.0));
       corners[k / 3].emplace_back((at * 1024.0).array().round().matrix() / 1024.0);
     }
     const auto mesh = [&](int m, const Eigen::Vector3d& by)

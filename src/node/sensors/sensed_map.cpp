@@ -6,6 +6,7 @@
 
 #include <ros/console.h>
 
+#include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "node/endpoints/respond.h"
 #include "node/sensors/sensed_object.h"
