@@ -6,6 +6,7 @@ m/s). The next ~horizon seconds (0.5) limit the speed. A pair of bodies that com
 than the commanded speed, and none at ~stop (0.02 m). ~group: the group that moves. ~node: the planning_scene_node
 (/planning_scene). Without an answer of the node, or if joint values are older than 0.25 s, the velocities are 0. The
 controller must stop by itself where no command comes any more."""
+import argparse
 import math
 
 OLDEST = 0.25  # seconds
@@ -91,6 +92,8 @@ class SpeedLimiter:
 
 def main():
     import rospy
+    argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+                            usage="limit_speed.py [NAME:=VALUE ...]").parse_args(rospy.myargv()[1:])
     rospy.init_node("limit_speed")
     SpeedLimiter()
     rospy.spin()

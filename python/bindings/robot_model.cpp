@@ -6,6 +6,7 @@
 
 #include <pybind11/stl.h>
 
+#include "base/text/name_list.h"
 #include "bindings/arguments.h"
 #include "bindings/bindings.h"
 #include "bindings/interrupt.h"
@@ -195,11 +196,17 @@ py::array_t<double> linkPoses(const RobotModel& robot, const py::object& states)
 }
 
 /// An index of the robot. The library returns -1 for an unknown name, which would be the last element in Python.
-int known(int index, const RobotModel& robot, const char* kind, const std::string& name)
+/// `parts`: the links, joints or variables of the robot.
+template <typename Part>
+int known(int index, const RobotModel& robot, const char* kind, const std::string& name, const std::vector<Part>& parts)
 {
-  if (index < 0)
-    throw core::Error("robot '" + robot.name() + "' has no " + kind + " '" + name + "'");
-  return index;
+  if (index >= 0)
+    return index;
+  std::vector<std::string> names;
+  for (const Part& part : parts)
+    names.push_back(part.name);
+  throw core::Error("robot '" + robot.name() + "' has no " + kind + " '" + name +
+                    "'; there are: " + core::nameList(names));
 }
 
 void addParts(py::module_& module)
@@ -322,17 +329,17 @@ void addRobotModel(py::module_& module)
       .def(
           "link_index",
           [](const RobotModel& robot, const Arg<std::string>& name)
-          { return known(robot.linkIndex(name.value), robot, "link", name.value); },
+          { return known(robot.linkIndex(name.value), robot, "link", name.value, robot.links()); },
           py::arg("name"), "The index of a link. Raises Error for an unknown name.")
       .def(
           "joint_index",
           [](const RobotModel& robot, const Arg<std::string>& name)
-          { return known(robot.jointIndex(name.value), robot, "joint", name.value); },
+          { return known(robot.jointIndex(name.value), robot, "joint", name.value, robot.joints()); },
           py::arg("name"), "The index of a joint. Raises Error for an unknown name.")
       .def(
           "variable_index",
           [](const RobotModel& robot, const Arg<std::string>& name)
-          { return known(robot.variableIndex(name.value), robot, "variable", name.value); },
+          { return known(robot.variableIndex(name.value), robot, "variable", name.value, robot.variables()); },
           py::arg("name"), "The column of a variable in a state. Raises Error for an unknown name.")
       .def(
           "group", [](const RobotModel& robot, const Arg<std::string>& name) { return robot.group(name.value); },

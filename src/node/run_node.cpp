@@ -3,6 +3,9 @@
 #include <csignal>
 #include <cstdio>
 #include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <malloc.h>
 
@@ -15,6 +18,13 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+constexpr char kUsage[] =
+    "usage: planning_scene_node [NAME:=VALUE ...]\n"
+    "Holds a planning scene that clients can change, and checks robot states for collision over ROS.\n"
+    "It reads the robot from the parameters robot_description and robot_description_semantic. Its other\n"
+    "settings are private parameters, for example _device:=cpu. planning_scene.launch sets them all: see\n"
+    "roslaunch --ros-args gpu_planning_scene planning_scene.launch, and docs/node.md.\n";
+
 volatile std::sig_atomic_t stop_requested = 0;
 
 void requestStop(int)
@@ -29,6 +39,23 @@ void requestStop(int)
 void useOneHeap()
 {
   mallopt(M_ARENA_MAX, 1);
+}
+
+/// The exit code for arguments that are not ROS's remappings and parameters; nothing without such arguments.
+std::optional<int> answerArguments(int argc, char** argv)
+{
+  std::vector<std::string> arguments;
+  ros::removeROSArgs(argc, argv, arguments);
+  if (arguments.size() < 2)
+    return std::nullopt;
+  if (arguments[1] == "--help" || arguments[1] == "-h")
+  {
+    std::cout << kUsage;
+    return 0;
+  }
+  std::cerr << "planning_scene_node: unknown argument '" << arguments[1]
+            << "'; arguments are NAME:=VALUE, see --help\n";
+  return 2;
 }
 
 /// The node handles are outside the try block: roscpp and its log shut down with the last handle, so an error must be
@@ -55,6 +82,8 @@ int connectAndServe(const OpenDevice& open_device)
 
 int runNode(int argc, char** argv, const OpenDevice& open_device)
 {
+  if (const std::optional<int> exit_code = answerArguments(argc, argv))
+    return *exit_code;
   useOneHeap();
   // So that a log file has each line at once, and not only when four kilobytes have been written.
   std::setvbuf(stdout, nullptr, _IOLBF, 0);

@@ -125,7 +125,17 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
     if (leader)
       leader->requireScene();
   };
-  MoveItInterface moveit({node, own, store, changes, checks, kinematics, lookup, diagnostics, options, require_leader});
+  std::optional<Sensors> sensors;
+  if (!sensors_options.sensors.empty())
+  {
+    const SceneStore::Lookup find_frame = [&lookup](const StampedFrame& frame)
+    { return lookup(frame, FrameLookup::Clock::now()); };
+    sensors.emplace(node, own, store, find_frame, options.tf_timeout, memory, diagnostics, sensors_options);
+  }
+  const ClearOctomap clear_octomap = [&] { return sensors ? sensors->clear() : changes.clearOctomap(); };
+
+  MoveItInterface moveit(
+      {node, own, store, changes, clear_octomap, checks, kinematics, lookup, diagnostics, options, require_leader});
   const Endpoints::Precondition require_scene = [&]
   {
     require_leader();
@@ -143,25 +153,15 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   watcher_options.motions.max_checks = options.max_motion_checks;
   TrajectoryWatcher watcher(node, own, store, make_cpu_checker, inspector_of, require_scene, watcher_options);
 
-  std::optional<Sensors> sensors;
-  if (!sensors_options.sensors.empty())
-  {
-    const SceneStore::Lookup find_frame = [&lookup](const StampedFrame& frame)
-    { return lookup(frame, FrameLookup::Clock::now()); };
-    sensors.emplace(node, own, store, find_frame, options.tf_timeout, memory, diagnostics, sensors_options);
-  }
-
   Endpoints change_requests(node, own, 3, diagnostics, require_own_scene);
   change_requests.advertise<ApplyPlanningScene>(
       "apply_planning_scene", [&](const ApplyPlanningScene::Request& r) { return changes.apply(r); });
-  change_requests.advertise<Clear>("clear", [&](const Clear::Request&) { return changes.clear(); });
+  change_requests.advertise<Clear>(
+      "clear", [&](const Clear::Request&) { return changes.clear(); });
+  change_requests.advertise<Clear>("clear_octomap", [&](const Clear::Request&) { return clear_octomap(); });
   if (sensors)
-  {
-    change_requests.advertise<Clear>(
-        "clear_octomap", [&](const Clear::Request&) { return sensors->clear(); });
     change_requests.advertise<ExcludeFromSensors>(
         "exclude_from_sensors", [&](const ExcludeFromSensors::Request& r) { return sensors->exclude(r); });
-  }
   Endpoints scene_requests(node, own, 3, diagnostics, require_scene);
   scene_requests.advertise<GetPlanningScene>(
       "get_planning_scene", [&](const GetPlanningScene::Request& r) { return changes.get(r); });

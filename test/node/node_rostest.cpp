@@ -207,6 +207,18 @@ TEST_F(Node, DoesNotStartOnWhatItCannotUse)
   expectNoStart({"_packages:=5"}, "~packages");
 }
 
+TEST_F(Node, AnswersArgumentsThatAreNotOfRosWithoutStarting)
+{
+  const ProgramOutput help = runProgram(GPS_NODE, {"__name:=helped", "--help"});
+  EXPECT_EQ(0, help.exit_code);
+  EXPECT_NE(std::string::npos, help.out.find("usage: planning_scene_node [NAME:=VALUE ...]")) << help.out;
+  EXPECT_EQ("", help.err);
+  const ProgramOutput wrong = runProgram(GPS_NODE, {"arm.urdf", "_device:=cpu"});
+  EXPECT_EQ(2, wrong.exit_code);
+  EXPECT_EQ(1u, linesOf(wrong.err).size()) << wrong.err;
+  EXPECT_NE(std::string::npos, wrong.err.find("unknown argument 'arm.urdf'")) << wrong.err;
+}
+
 TEST_F(Node, EndsAtASignalWhileItWaitsForTheMaster)
 {
   for (const char* signal : {"--signal=INT", "--signal=TERM"})

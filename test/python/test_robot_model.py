@@ -84,6 +84,9 @@ class RobotModel(Case):
         for call in (robot.link_index, robot.joint_index, robot.variable_index, robot.group, robot.named_state):
             self.assert_one_line(gps.Error, "'nose'", call, "nose")
             self.assert_one_line(TypeError, r"expected a str, but got 5 \(int\)", call, 5)
+        for call, parts in ((robot.link_index, robot.links), (robot.joint_index, robot.joints),
+                            (robot.variable_index, robot.variables)):
+            self.assert_one_line(gps.Error, "there are: " + ", ".join(part.name for part in parts), call, "nose")
 
     def test_a_named_state_has_its_values(self):
         robot = arm()
@@ -156,7 +159,7 @@ class RobotModel(Case):
             self.assert_one_line(TypeError, "^states: expected an array of numbers, but got", robot.link_poses, states)
 
     def test_wrong_files_are_errors_that_name_them(self):
-        self.assert_one_line(gps.Error, "cannot read URDF '/none.urdf'", gps.RobotModel.from_files, "/none.urdf")
+        self.assert_one_line(gps.Error, "URDF /none.urdf: cannot read the file: No such file", gps.RobotModel.from_files, "/none.urdf")
         self.assert_one_line(gps.Error, "urdf", gps.RobotModel.from_xml, "<robot")
         self.assert_one_line(TypeError, "urdf: expected a str or a path", gps.RobotModel.from_files, 5)
 
@@ -197,7 +200,7 @@ class RobotModel(Case):
     def test_messages_need_not_be_utf_8(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.fsdecode(os.path.join(os.fsencode(folder), b"\xe9.urdf"))
-            self.assert_one_line(gps.Error, "cannot read URDF '.*/é.urdf'", gps.RobotModel.from_files, path)
+            self.assert_one_line(gps.Error, "URDF .*/é.urdf: cannot read the file", gps.RobotModel.from_files, path)
             planning = pathlib.Path(folder, "limits.yaml")
             planning.write_bytes("joint_limits: {é: {max_position: 1}}".encode("latin-1"))
             with self.assertWarnsRegex(UserWarning, "the robot does not have the joint: é"):

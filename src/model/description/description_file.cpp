@@ -19,6 +19,7 @@
 #include "model/description/xml.h"
 #include "model/description/xml_kind.h"
 #include "model/files/child_process.h"
+#include "model/files/open_file.h"
 
 namespace gpu_planning_scene::core
 {
@@ -29,13 +30,16 @@ constexpr std::size_t kMaxXacroMessageBytes = std::size_t(1) << 20;
 
 std::string readFile(const std::string& path, const std::string& kind)
 {
-  std::error_code unreadable;
-  std::ifstream file(path, std::ios::binary);
-  if (!file.is_open() || std::filesystem::is_directory(path, unreadable))
-    throw Error("cannot read " + kind + " '" + path + "'");
-  std::string text((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
-  if (text.empty())
-    throw Error(kind + " '" + path + "' is empty");
+  std::string text;
+  try
+  {
+    std::ifstream file = openFile(path);
+    text.assign(std::istreambuf_iterator<char>(file), {});
+  }
+  catch (const Error& error)
+  {
+    throw Error(kind + " " + error.what());
+  }
   return xmlInUtf8(std::move(text));
 }
 
@@ -133,9 +137,9 @@ RobotDescription readRobotDescription(const std::string& urdf_path, const std::s
   RobotDescription description;
   const std::filesystem::path folder = std::filesystem::path(urdf_path).parent_path();
   description.urdf_folder = folder.empty() ? "." : folder.string();
+  description.urdf = readDescription(urdf_path, "URDF", packages, info);
   if (!srdf_path.empty())
     description.srdf = readDescription(srdf_path, "SRDF", packages, info);
-  description.urdf = readDescription(urdf_path, "URDF", packages, info);
   return description;
 }
 }  // namespace gpu_planning_scene::core

@@ -16,7 +16,12 @@ std::ifstream openFile(const std::string& path)
   errno = 0;
   std::ifstream file(path);
   if (!file)
-    throw Error(path + ": cannot read the file: " + std::generic_category().message(errno));
+  {
+    const std::string why = std::generic_category().message(errno);
+    const std::filesystem::path folder = std::filesystem::current_path(unreadable);
+    throw Error(path + ": cannot read the file: " + why +
+                (std::filesystem::path(path).is_absolute() ? "" : " (the current folder is " + folder.string() + ")"));
+  }
   if (file.peek() == std::ifstream::traits_type::eof())
     throw Error(path + ": the file is empty");
   return file;

@@ -1,4 +1,5 @@
 #include "collision/report/scene_text.h"
+#include "gpu_planning_scene/octomap.h"
 #include "model/full_states.h"
 #include "model/robot_text.h"
 #include "node/checks/check_services.h"
@@ -43,6 +44,8 @@ void fillReport(const CheckAnswer& answer, GetReport::Response& response)
   add("shared_trees", report.shared_trees);
   add("objects", answer.scene->objects.size());
   add("attached_objects", answer.scene->attached.size());
+  const WorldObject* octomap = answer.scene->findObject(kOctomapId);
+  add("voxels", octomap == nullptr ? 0 : octomap->shapes.size());
   add("variables", answer.scene->robot->variables().size());
   response.scene_revision = answer.result.revision;
 }

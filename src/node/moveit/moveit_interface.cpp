@@ -35,8 +35,8 @@ struct MoveItInterface::Impl
       node.diagnostics.watchScene([this] { return followed->fault(); });
     }
     if (options.names)
-      names.emplace(node.node, node.store, node.changes, validity, kinematics, node.lookup, node.diagnostics,
-                    node.options.max_waiting_changes, node.options.message_size);
+      names.emplace(node.node, node.store, node.changes, node.clear_octomap, validity, kinematics, node.lookup,
+                    node.diagnostics, node.options.max_waiting_changes, node.options.message_size);
     requests.advertise<MoveItStateValidity>(
         "check_state_validity", [this](const MoveItStateValidity::Request& r) { return validity.answer(r.ours); });
   }

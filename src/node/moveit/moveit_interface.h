@@ -25,6 +25,7 @@ class MoveItInterface
     ros::NodeHandle& own;
     SceneStore& store;
     SceneServices& changes;
+    const ClearOctomap& clear_octomap;
     CheckServices& checks;
     KinematicsServices& kinematics;
     const FrameLookup& lookup;

@@ -14,6 +14,7 @@
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 #include <ros/service_traits.h>
+#include <roscpp/Empty.h>
 
 #include "node/messages/messages.h"
 
@@ -57,6 +58,13 @@ struct MoveItStateValidity
 {
   using Request = AsMoveIt<StateValidityRequest, moveit_msgs::GetStateValidity::Request>;
   using Response = moveit_msgs::GetStateValidity::Response;
+};
+
+/// std_srvs/Empty, of MoveIt's clear_octomap. roscpp, which the node needs anyway, has an equal service.
+struct MoveItEmpty
+{
+  using Request = roscpp::Empty::Request;
+  using Response = roscpp::Empty::Response;
 };
 
 /// Passes the fields of a message that MoveIt's message has to the stream, in MoveIt's order.
@@ -156,6 +164,15 @@ struct MD5Sum<gpu_planning_scene::core::MoveItStateValidity> : MD5Sum<moveit_msg
 template <>
 struct DataType<gpu_planning_scene::core::MoveItStateValidity> : DataType<moveit_msgs::GetStateValidity>
 {
+};
+template <>
+struct MD5Sum<gpu_planning_scene::core::MoveItEmpty> : MD5Sum<roscpp::Empty>
+{
+};
+template <>
+struct DataType<gpu_planning_scene::core::MoveItEmpty>
+{
+  static const char* value() { return "std_srvs/Empty"; }
 };
 }  // namespace service_traits
 }  // namespace ros

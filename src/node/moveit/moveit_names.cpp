@@ -13,6 +13,7 @@ constexpr std::size_t kSceneThreads = 4;
 constexpr std::size_t kCheckThreads = 16;
 constexpr char kApplyScene[] = "apply_planning_scene";
 constexpr char kGetScene[] = "get_planning_scene";
+constexpr char kClearOctomap[] = "clear_octomap";
 constexpr char kStateValidity[] = "check_state_validity";
 constexpr char kIk[] = "compute_ik";
 constexpr char kFk[] = "compute_fk";
@@ -21,7 +22,7 @@ constexpr char kLines[] = "compute_cartesian_path";
 /// ROS would let the node take the service away from the other node silently.
 void requireFreeServices(const ros::NodeHandle& node)
 {
-  for (const char* name : {kApplyScene, kGetScene, kStateValidity, kIk, kFk, kLines})
+  for (const char* name : {kApplyScene, kGetScene, kClearOctomap, kStateValidity, kIk, kFk, kLines})
     if (const std::string service = node.resolveName(name); ros::service::exists(service, false))
       throw Error("parameter ~moveit_names is true, but another node has the service " + service +
                   " already; to follow a running move_group, give its name in ~monitor instead");
@@ -101,8 +102,9 @@ void MoveItScenePublisher::publishState()
 }
 
 MoveItNames::MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices& changes,
-                         const StateValidity& validity, const MoveItKinematics& kinematics, const FrameLookup& lookup,
-                         Diagnostics& diagnostics, std::size_t max_changes, std::size_t max_bytes)
+                         const ClearOctomap& clear_octomap, const StateValidity& validity,
+                         const MoveItKinematics& kinematics, const FrameLookup& lookup, Diagnostics& diagnostics,
+                         std::size_t max_changes, std::size_t max_bytes)
   : publisher_((requireFreeServices(node), node), store),
     scenes_(node, node, kSceneThreads, diagnostics),
     checks_(node, node, kCheckThreads, diagnostics),
@@ -146,6 +148,13 @@ MoveItNames::MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices
                                           warnOfMessage({applied.message});
                                         return MoveItApplyScene::Response();
                                       });
+  scenes_.advertise<MoveItEmpty>(kClearOctomap,
+                                 [clear_octomap](const MoveItEmpty::Request&)
+                                 {
+                                   if (const Clear::Response cleared = clear_octomap(); !cleared.success)
+                                     throw Error(cleared.message);
+                                   return MoveItEmpty::Response();
+                                 });
 }
 
 void MoveItNames::close()

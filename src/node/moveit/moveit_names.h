@@ -7,6 +7,7 @@
 #include "node/moveit/moveit_kinematics.h"
 #include "node/moveit/moveit_messages.h"
 #include "node/moveit/state_validity.h"
+#include "node/scene/scene_services.h"
 #include "node/scene/scene_topics.h"
 
 namespace gpu_planning_scene::core
@@ -37,9 +38,9 @@ class MoveItNames
 {
  public:
   /// Throws Error if another node has one of the services. All arguments must outlive this object.
-  MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices& changes, const StateValidity& validity,
-              const MoveItKinematics& kinematics, const FrameLookup& lookup, Diagnostics& diagnostics,
-              std::size_t max_changes, std::size_t max_bytes);
+  MoveItNames(ros::NodeHandle& node, SceneStore& store, SceneServices& changes, const ClearOctomap& clear_octomap,
+              const StateValidity& validity, const MoveItKinematics& kinematics, const FrameLookup& lookup,
+              Diagnostics& diagnostics, std::size_t max_changes, std::size_t max_bytes);
   ~MoveItNames() = default;
   MoveItNames(const MoveItNames&) = delete;
   MoveItNames& operator=(const MoveItNames&) = delete;

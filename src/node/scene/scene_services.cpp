@@ -30,6 +30,15 @@ bool takesMemory(const SceneChange& change)
                      [&brings](const AttachedChange& candidate) { return brings(candidate.object); });
 }
 
+/// Removes an object of the world; an empty id: all of them.
+ObjectChange removalOf(const std::string& id)
+{
+  ObjectChange removal;
+  removal.operation = Operation::Remove;
+  removal.id = id;
+  return removal;
+}
+
 /// All warnings of a change, in one line.
 std::string joined(const std::vector<std::string>& warnings)
 {
@@ -78,6 +87,20 @@ Clear::Response SceneServices::clear()
       [&](Clear::Response& response)
       {
         const SceneStore::Applied applied = store_.clear();
+        response.message = joined(applied.warnings);
+        response.scene_revision = applied.revision;
+      });
+}
+
+Clear::Response SceneServices::clearOctomap()
+{
+  return respond<Clear::Response>(
+      [&](Clear::Response& response)
+      {
+        SceneChange change;
+        change.is_diff = true;
+        change.objects.push_back(removalOf(kOctomapId));
+        const SceneStore::Applied applied = apply(change, lookup_);
         response.message = joined(applied.warnings);
         response.scene_revision = applied.revision;
       });
@@ -133,12 +156,9 @@ SceneChange SceneServices::changeOf(const PlanningSceneWorld& message) const
   scene.robot_state.is_diff = true;
   scene.world = message;
   SceneChange change = changeOf(scene);
-  ObjectChange remove_all;
-  remove_all.operation = Operation::Remove;
-  remove_all.keeps_allowed_collisions = true;
-  ObjectChange remove_octomap = remove_all;
-  remove_octomap.id = kOctomapId;
-  change.objects.insert(change.objects.begin(), {remove_all, remove_octomap});
+  ObjectChange all_objects = removalOf("");
+  all_objects.keeps_allowed_collisions = true;
+  change.objects.insert(change.objects.begin(), {all_objects, removalOf(kOctomapId)});
   return change;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include <sensor_msgs/JointState.h>
 
 #include "node/endpoints/topic_warnings.h"
@@ -10,16 +12,22 @@
 
 namespace gpu_planning_scene::core
 {
-/// Answers apply_planning_scene, get_planning_scene and clear, and makes the changes from topics. Thread-safe.
+/// Removes the octomap from the scene. Throws nothing: the response has the error.
+using ClearOctomap = std::function<Clear::Response()>;
+
+/// Answers apply_planning_scene, get_planning_scene, clear and clear_octomap, and makes the changes from topics.
+/// Thread-safe.
 class SceneServices
 {
  public:
   /// `setup`: for messages to followers, see setupFromParameters.
   SceneServices(SceneStore& store, SceneStore::Lookup lookup, const MemoryGuard& memory, std::uint64_t setup = 0);
 
-  /// These three throw nothing: the response has the error.
+  /// These throw nothing: the response has the error.
   ApplyPlanningScene::Response apply(const ApplyPlanningScene::Request& request);
   Clear::Response clear();
+  /// For a node without sensors. Its entries in the allowed collision matrix stay.
+  Clear::Response clearOctomap();
   GetPlanningScene::Response get(const GetPlanningScene::Request& request) const;
 
   /// Converts a message to a change. Throws Error; warnings are logged.

@@ -12,12 +12,14 @@ namespace
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kLongestSilence = 1.0;  // seconds
+constexpr double kLoggedSilence = 5.0;   // seconds: drivers of cameras may start after the node
 }  // namespace
 
 void SensorRecord::use(double its_lag)
 {
   ++used;
   used_at = ros::SteadyTime::now();
+  silence_is_logged = false;
   fault.clear();
   lag = its_lag;
   longest_lag = std::max(longest_lag, lag);
@@ -27,6 +29,18 @@ void SensorRecord::reject(const std::string& why)
 {
   ++rejected;
   fault = why;
+}
+
+std::string SensorRecord::silence(const std::string& topic)
+{
+  if (silence_is_logged || (ros::SteadyTime::now() - used_at).toSec() < kLoggedSilence)
+    return "";
+  silence_is_logged = true;
+  return "sensor " + topic + ": " +
+         (!fault.empty() ? "no measurement could be used for 5 s, the last one because of: " + fault
+                         : "no measurement came for 5 s, so the octomap does not follow it; is the topic published? "
+                           "rostopic info " +
+                               topic + " lists its publishers");
 }
 
 DiagnosticStatus SensorRecord::status(const std::string& topic)
@@ -40,7 +54,7 @@ DiagnosticStatus SensorRecord::status(const std::string& topic)
     status.level = DiagnosticStatus::ERROR;
     status.message = "the octomap does not follow this sensor: " + fault;
   }
-  else if (used_at.isZero() || (ros::SteadyTime::now() - used_at).toSec() > kLongestSilence)
+  else if (used == 0 || (ros::SteadyTime::now() - used_at).toSec() > kLongestSilence)
   {
     status.level = DiagnosticStatus::WARN;
     status.message = "no measurement for more than a second";

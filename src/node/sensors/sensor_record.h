@@ -14,7 +14,8 @@ struct SensorRecord
   std::uint64_t used = 0;
   std::uint64_t dropped = 0;
   std::uint64_t rejected = 0;
-  ros::SteadyTime used_at;   ///< zero: none was used
+  ros::SteadyTime used_at = ros::SteadyTime::now();  ///< of the last used measurement; before it, the start
+  bool silence_is_logged = false;
   std::string fault;         ///< of the last measurement; empty if it was used
   double lag = 0.0;          ///< seconds from the stamp of the last used measurement to the scene with it
   double longest_lag = 0.0;  ///< since the last call of status()
@@ -23,6 +24,10 @@ struct SensorRecord
   void use(double its_lag);
   /// Counts a measurement that is not in the scene. `why`: one line.
   void reject(const std::string& why);
+
+  /// A line for the log if no measurement was used for so long that the user should look. Empty if one was used, or if
+  /// this silence got its line already.
+  std::string silence(const std::string& topic);
 
   /// ERROR if the last measurement was rejected, WARN if none was used for a second. Resets `longest_lag`.
   diagnostic_msgs::DiagnosticStatus status(const std::string& topic);

@@ -228,7 +228,11 @@ void Sensors::publishStatus()
   {
     const std::lock_guard<std::mutex> lock(waiting_mutex_);
     for (const std::unique_ptr<Sensor>& sensor : sensors_)
+    {
       message.status.push_back(sensor->record.status(sensor->options.topic));
+      if (const std::string silence = sensor->record.silence(sensor->options.topic); !silence.empty())
+        ROS_WARN_STREAM(silence);
+    }
   }
   diagnostics_publisher_.publish(message);
 }

@@ -10,11 +10,14 @@
 #include <moveit_msgs/GetPlanningScene.h>
 #include <moveit_msgs/GetStateValidity.h>
 #include <moveit_msgs/PlanningSceneWorld.h>
+#include <roscpp/Empty.h>
 #include <rosgraph_msgs/Log.h>
 
+#include "gpu_planning_scene/octomap.h"
 #include "node/child_node.h"
 #include "node/moveit/move_group.h"
 #include "node/moveit/moveit_client.h"
+#include "node/moveit/moveit_messages.h"
 #include "node/persistent_call.h"
 
 namespace gpu_planning_scene::core
@@ -317,6 +320,27 @@ TEST_F(MoveItNames, AWorldReplacesAllObjectsAndKeepsTheMatrix)
   collision_detection::AllowedCollision::Type type = collision_detection::AllowedCollision::NEVER;
   EXPECT_TRUE(read.getAllowedCollisionMatrix().getEntry("stays", "panda_hand", type));
   EXPECT_EQ(collision_detection::AllowedCollision::ALWAYS, type);
+}
+
+TEST_F(MoveItNames, ClearOctomapRemovesTheOctomapAndKeepsTheObjects)
+{
+  EXPECT_STREQ("std_srvs/Empty", ros::service_traits::datatype<MoveItEmpty>());
+  const SerializedOctree octree =
+      octreeOf({{Box{Eigen::Vector3d::Constant(0.1)}, Eigen::Isometry3d(Eigen::Translation3d(0.05, 0.05, 0.05))}});
+  moveit_msgs::PlanningScene scene = diff();
+  scene.world.collision_objects = {moveItBox("stays", 1.0, 0.1)};
+  scene.world.octomap.header.frame_id = model->getModelFrame();
+  scene.world.octomap.origin.orientation.w = 1.0;
+  scene.world.octomap.octomap.id = octree.id;
+  scene.world.octomap.octomap.binary = 1;
+  scene.world.octomap.octomap.resolution = octree.resolution;
+  scene.world.octomap.octomap.data = octree.bytes;
+  ASSERT_TRUE(apply(scene));
+  EXPECT_FALSE(get().world.octomap.octomap.data.empty());
+  roscpp::Empty call;
+  EXPECT_TRUE(callPersistently("/clear_octomap", call));
+  EXPECT_TRUE(get().world.octomap.octomap.data.empty());
+  EXPECT_EQ(std::set<std::string>{"stays"}, objects());
 }
 
 TEST_F(MoveItNames, MoveItsOwnSceneFollowsTheNode)

@@ -1,5 +1,6 @@
 // Octomaps that come at 2 Hz while states are checked.
 
+#include <algorithm>
 #include <atomic>
 #include <map>
 #include <set>
@@ -37,6 +38,15 @@ class Octomaps : public RunningNode
     map.octomap.data = octree.bytes;
     map.origin = poseAt(Eigen::Vector3d(place - Eigen::Vector3d::Constant(0.5 * size)));
     return message;
+  }
+
+  /// The number of voxels in the report.
+  static double voxels()
+  {
+    const GetReport::Response report = call<GetReport>("get_report", {});
+    const auto found = std::find(report.names.begin(), report.names.end(), "voxels");
+    EXPECT_NE(report.names.end(), found);
+    return found == report.names.end() ? -1.0 : report.values[static_cast<std::size_t>(found - report.names.begin())];
   }
 };
 
@@ -97,11 +107,28 @@ TEST_F(Octomaps, GoThroughTheTopicAndComeBackAndAreCleared)
   EXPECT_TRUE(back.world.collision_objects.empty());
   EXPECT_EQ(hit.world.octomap.octomap.data, back.world.octomap.octomap.data);
   EXPECT_EQ(hit.world.octomap.octomap.resolution, back.world.octomap.octomap.resolution);
+  EXPECT_EQ(10001.0, voxels());
   PlanningSceneMessage clear = diffScene();
   clear.world.octomap.octomap.id = "cleared";
   apply(clear);
   EXPECT_TRUE(isFree());
   EXPECT_TRUE(scene().world.octomap.octomap.data.empty());
+  EXPECT_EQ(0.0, voxels());
+}
+
+TEST_F(Octomaps, AreClearedByTheServiceWhichKeepsTheObjects)
+{
+  PlanningSceneMessage hit = octomapAt(tipPoint(), 0.02);
+  hit.world.collision_objects.push_back(boxObject("beside", farAway(), 0.1));
+  const std::uint64_t revision = apply(hit);
+  EXPECT_FALSE(isFree());
+  const Clear::Response cleared = call<Clear>("clear_octomap", {});
+  EXPECT_TRUE(cleared.success) << cleared.message;
+  EXPECT_GT(cleared.scene_revision, revision);
+  EXPECT_TRUE(isFree());
+  EXPECT_TRUE(scene().world.octomap.octomap.data.empty());
+  EXPECT_EQ(1u, scene().world.collision_objects.size());
+  EXPECT_TRUE(call<Clear>("clear_octomap", {}).success) << "a scene without an octomap";
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/JointState.h>
@@ -215,6 +216,38 @@ TEST_F(SensorsOfANode, ABoxBeforeTheCameraBlocksTheRobotUntilItIsGone)
     truth_->objects = {box};
     EXPECT_TRUE(call<Clear>("clear_octomap", {}).success);
   }
+}
+
+TEST_F(SensorsOfANode, ASensorThatStopsIsInTheLogOnce)
+{
+  int lines = 0;
+  const ros::Subscriber log = node_.subscribe<rosgraph_msgs::Log>(
+      "/rosout", 100,
+      [&lines](const rosgraph_msgs::Log::ConstPtr& line)
+      {
+        if (line->msg.find("sensor /scanner/points: no measurement came for 5 s") != std::string::npos)
+          ++lines;
+      });
+  ASSERT_TRUE(becomes([&] { return log.getNumPublishers() > 1 && !statusOf("/scanner/points", "used").empty(); }));
+  const std::string before = statusOf("/scanner/points", "used");
+  ASSERT_TRUE(becomes(
+      [&]
+      {
+        sensor_msgs::PointCloud2 cloud = emptyCloud();
+        cloud.header.stamp = ros::Time::now();
+        clouds_.publish(cloud);
+        return statusOf("/scanner/points", "used") != before;
+      }));
+  lines = 0;
+  const auto is_logged = [&lines]
+  {
+    ros::spinOnce();
+    return lines > 0;
+  };
+  EXPECT_TRUE(becomes(is_logged));
+  ros::WallDuration(2.0).sleep();  // the status is published each second
+  ros::spinOnce();
+  EXPECT_EQ(1, lines);
 }
 
 TEST_F(SensorsOfANode, AnExcludedObjectHasNoVoxels)
