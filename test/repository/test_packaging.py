@@ -17,6 +17,22 @@ def build_dependencies():
     return {re.match(r"[a-z0-9.+-]+", line.strip()).group() for line in field.splitlines()}
 
 
+def packaged_files():
+    """The files of the repository that gpu-planning-scene-doc has, at the same places."""
+    lines = [line.split()[0] for kind in ("docs", "install", "examples")
+             for line in (ROOT / "debian" / f"gpu-planning-scene-doc.{kind}").read_text().splitlines()]
+    found = [path for line in lines for path in ROOT.glob(line)]
+    return {file for path in found for file in [path, *path.rglob("*")]}
+
+
+def links_out_of_the_package(packaged):
+    """The links of the packaged documents to files of the repository that are not packaged."""
+    documents = [path for path in packaged if path.suffix == ".md"]
+    return sorted({f"{document.relative_to(ROOT)}: {link}" for document in documents
+                   for link in re.findall(r"\]\(([^)#]+)[^)]*\)", document.read_text())
+                   if "://" not in link and (document.parent / link).resolve() not in packaged})
+
+
 class Packaging(unittest.TestCase):
     def test_packages_have_the_version_of_package_xml(self):
         first = (ROOT / "debian" / "changelog").read_text().splitlines()[0]
@@ -40,6 +56,12 @@ class Packaging(unittest.TestCase):
         installed = (ROOT / "debian" / "libgpu-planning-scene-dev.install").read_text()
         for library in libraries:
             self.assertIn(f"usr/lib/*/lib{library}.so\n", installed)
+
+    def test_links_of_the_packaged_documents_lead_into_the_package(self):
+        self.assertEqual([], links_out_of_the_package(packaged_files()))
+
+    def test_a_link_out_of_the_package_is_found(self):
+        self.assertIn("README.md: docs/gpu.md", links_out_of_the_package({ROOT / "README.md"}))
 
     @unittest.skipUnless(shutil.which("catkin_lint"), "catkin_lint is not installed")
     def test_catkin_lint_finds_nothing(self):
