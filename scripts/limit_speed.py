@@ -3,20 +3,22 @@
 
 Topics: joint_states in; command in and limited_command out (sensor_msgs/JointState with names and velocities, rad/s or
 m/s). The next ~horizon seconds (0.5) limit the speed. A pair of bodies that comes nearer than ~slow (0.1 m) allows less
-than the commanded speed, and none at ~stop (0.02 m). ~group: the group that moves. ~node: the planning_scene_node
-(/planning_scene). Without an answer of the node, or if joint values are older than 0.25 s, the velocities are 0. The
-controller must stop by itself where no command comes any more."""
+than the commanded speed, and none at ~stop (0.02 m). ~reach (1.0 m): the distance from a joint to the farthest point
+that it moves. Between two states that are checked, no point moves farther than ~stop, so no thin object is passed by.
+~group: the group that moves. ~node: the planning_scene_node (/planning_scene). Without an answer of the node, or if
+joint values are older than 0.25 s, the velocities are 0. The controller must stop by itself where no command comes any
+more."""
 import argparse
 import math
 
 OLDEST = 0.25  # seconds
 NOISE = 1e-5  # metres: a distance that shrinks by less stays the same
-STEP = 0.05  # radians or metres: no joint moves farther between two states that are checked
 
 
-def future_states(now, velocities, horizon):
-    """The rows of joint values of the next `horizon` seconds at these velocities, from `now` on."""
-    steps = max(1, math.ceil(horizon * max(abs(velocity) for velocity in velocities) / STEP))
+def future_states(now, velocities, horizon, step):
+    """The rows of joint values of the next `horizon` seconds at these velocities, from `now` on. `step`: radians or
+    metres, the most that all joints together move between two rows."""
+    steps = max(1, math.ceil(horizon * sum(abs(velocity) for velocity in velocities) / step))
     return [[value + velocity * horizon * i / steps for value, velocity in zip(now, velocities)]
             for i in range(steps + 1)]
 
@@ -44,10 +46,11 @@ class SpeedLimiter:
         self.horizon = rospy.get_param("~horizon", 0.5)
         self.slow = rospy.get_param("~slow", 0.1)
         self.stop = rospy.get_param("~stop", 0.02)
+        self.reach = rospy.get_param("~reach", 1.0)
         self.all_pairs = CheckStatesRequest.ALL_PAIRS
         self.group = rospy.get_param("~group", "")
-        if not (self.horizon > 0 and self.slow > self.stop >= 0):
-            raise SystemExit("limit_speed.py: ~horizon must be above 0, and ~slow above ~stop, which is at least 0")
+        if not (self.horizon > 0 and self.slow > self.stop > 0 and self.reach > 0):
+            raise SystemExit("limit_speed.py: ~horizon, ~stop and ~reach must be above 0, and ~slow above ~stop")
         self.values = {}  # joint -> (position, time of arrival)
         service = rospy.get_param("~node", "/planning_scene") + "/check_states"
         rospy.wait_for_service(service)
@@ -70,20 +73,25 @@ class SpeedLimiter:
         message.velocity = [scale * velocity if scale else 0.0 for velocity in message.velocity]
         self.limited.publish(message)
 
+    def require_fresh(self, names):
+        now = self.ros.get_time()
+        for name in names:
+            if name not in self.values or now - self.values[name][1] > OLDEST:
+                raise ValueError(f"joint_states had no value of {name} in the last {OLDEST} s")
+
     def scale(self, message):
         if not message.name or len(message.velocity) != len(message.name):
             raise ValueError("the command needs one velocity for each name")
         if not all(math.isfinite(velocity) for velocity in message.velocity):
             raise ValueError("a velocity of the command is not finite")
-        now = self.ros.get_time()
-        for name in message.name:
-            if name not in self.values or now - self.values[name][1] > OLDEST:
-                raise ValueError(f"joint_states had no value of {name} in the last {OLDEST} s")
-        states = future_states([self.values[name][0] for name in message.name], message.velocity, self.horizon)
+        self.require_fresh(message.name)
+        states = future_states([self.values[name][0] for name in message.name], message.velocity, self.horizon,
+                               self.stop / max(self.reach, 1.0))
         answer = self.check(group=self.group, joint_names=message.name, positions=sum(states, []),
                             distances=self.all_pairs, distance_range=self.slow)
         if not answer.success:
             raise ValueError(answer.message)
+        self.require_fresh(message.name)  # the answer may have come late
         near = [{} for _ in states]
         for found in answer.distances:
             near[found.state][found.body_1, found.body_2] = found.distance

@@ -79,11 +79,16 @@ def main():
     if not answer.success:
         sys.exit(f"save_scene.py: {answer.message}")
     scene = answer.scene
+    text = scene_text(scene)  # before the file is opened: after an error, an old file stays
     with open(arguments.file, "w", encoding="utf-8") as file:
-        file.write(scene_text(scene))
+        file.write(text)
     carried = [attached.object.id for attached in scene.robot_state.attached_collision_objects]
     if carried:
         print(f"not written, because links carry them: {', '.join(carried)}", file=sys.stderr)
+    ruled = [solid.id for solid in scene.solids]
+    if ruled:
+        print(f"not written, because the format has no rules for the inside of meshes (solids): {', '.join(ruled)}",
+              file=sys.stderr)
     if scene.world.octomap.octomap.data:
         print("not written, because the format has no octomaps: <octomap>", file=sys.stderr)
     print(f"{len(scene.world.collision_objects)} objects of revision {scene.scene_revision} in {arguments.file}")

@@ -1,6 +1,6 @@
 #include "bindings/arguments.h"
 
-#include <cstring>
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <memory>
@@ -8,6 +8,7 @@
 
 #include <pybind11/stl.h>
 
+#include "base/text/name_list.h"
 #include "base/text/utf8.h"
 #include "bindings/named_rows.h"
 #include "gpu_planning_scene/error.h"
@@ -49,6 +50,60 @@ std::function<std::string(const std::string&)> pathFunctionOf(py::function funct
     return pathFrom((*shared)(name), what);
   };
 }
+/// Whether an object is a numpy.ma.MaskedArray, or of a class that is derived from it.
+bool isMasked(py::handle object)
+{
+  return py::isinstance<py::array>(object) && py::hasattr(object, "mask") &&
+         py::isinstance(object, py::module_::import("numpy.ma").attr("MaskedArray"));
+}
+
+bool isListOrTuple(py::handle object)
+{
+  return py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object);
+}
+
+bool hasMasked(py::handle list)
+{
+  const auto items = py::reinterpret_borrow<py::sequence>(list);
+  return std::any_of(items.begin(), items.end(), [](const py::handle& item) { return isMasked(item); });
+}
+
+/// The names of the columns of a table such as a pandas.DataFrame, or of the values of a pandas.Series. Empty if the
+/// columns have numbers, or if the object is no table.
+std::vector<std::string> columnsOf(py::handle object)
+{
+  std::vector<std::string> columns;
+  if (py::isinstance<py::array>(object))
+    return columns;
+  const char* attribute = py::hasattr(object, "columns")    ? "columns"
+                          : py::hasattr(object, "to_frame") ? "index"
+                                                            : nullptr;
+  if (attribute == nullptr || !py::hasattr(object, attribute))
+    return columns;
+  bool has_text = false;
+  for (const py::handle name : object.attr(attribute))
+  {
+    has_text = has_text || py::isinstance<py::str>(name);
+    columns.push_back(py::str(name));
+  }
+  return has_text ? columns : std::vector<std::string>();
+}
+
+/// Throws Error for a table whose columns are not the robot's variables in their order: numpy would read them by their
+/// places.
+void requireColumns(py::handle object, const core::RobotModel& robot, const char* what)
+{
+  const std::vector<std::string> columns = columnsOf(object);
+  if (columns.empty())
+    return;
+  const auto has_name = [](const std::string& column, const core::Variable& variable)
+  { return column == variable.name; };
+  const std::vector<core::Variable>& variables = robot.variables();
+  if (!std::equal(columns.begin(), columns.end(), variables.begin(), variables.end(), has_name))
+    throw core::Error(std::string(what) + ": the columns are " + core::nameList(columns) + ", but robot '" +
+                      robot.name() + "' has " + variablesText(robot) +
+                      "; give the table with these columns in this order: table[list(robot.variable_names)]");
+}
 }  // namespace
 
 py::array anyArrayFrom(py::handle object)
@@ -64,7 +119,7 @@ py::array anyArrayFrom(py::handle object)
 ArrayOf<double> arrayFrom(py::handle object, const char* what)
 {
   const py::array any = anyArrayFrom(object);
-  if (std::strcmp(Py_TYPE(object.ptr())->tp_name, "MaskedArray") == 0)
+  if (isMasked(object) || (isListOrTuple(object) && hasMasked(object)))
     throwTypeError(std::string(what) +
                    ": expected an array of numbers, but got a masked array, whose mask would be lost");
   if (!any || std::string("iuf").find(any.dtype().kind()) == std::string::npos)
@@ -94,6 +149,7 @@ Rows rowsFrom(py::handle object, const core::RobotModel& robot, const char* what
     rows.is_single = py::isinstance<py::str>(object);
     return rows;
   }
+  requireColumns(object, robot, what);
   Rows rows;
   rows.array = arrayFrom(object, what);
   rows.is_single = rows.array.ndim() == 1;

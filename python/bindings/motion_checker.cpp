@@ -194,7 +194,9 @@ void addMotionChecker(py::module_& module)
                  auto options = motionOptionsFrom(rule, resolution, translation_resolution, max_samples);
                  if (!max_checks.is_none())
                    options.max_checks = max_checks.cast<Arg<std::size_t>>().value;
-                 return std::make_unique<SharedMotionChecker>(checker.value, group.value, options);
+                 // A running check holds the checker and needs the interpreter's lock now and then.
+                 return withoutLock(
+                     [&] { return std::make_unique<SharedMotionChecker>(checker.value, group.value, options); });
                }),
            py::arg("checker"), py::arg("group") = "", py::arg("rule") = "bound",
            py::arg("resolution") = defaults.steps.revolute,

@@ -34,7 +34,12 @@ class ShardedChecker:
         If no node can answer, success is False; status and message have the reason: see sharded_checker.h. Ctrl-C ends
         the call.
         """
-        request = args[0] if args and isinstance(args[0], CheckStatesRequest) else CheckStatesRequest(*args, **kwargs)
+        if args and isinstance(args[0], CheckStatesRequest):
+            if len(args) > 1 or kwargs:
+                raise TypeError("a CheckStatesRequest is the only argument; set its fields instead")
+            request = args[0]
+        else:
+            request = CheckStatesRequest(*args, **kwargs)
         buffer = io.BytesIO()
         request.serialize(buffer)
         return CheckStatesResponse().deserialize(self._client.check(buffer.getvalue()))

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "base/strict_arithmetic.h"
+
 // The argument is reduced with pi / 2 in three parts, after W. J. Cody, W. Waite: Software Manual for the Elementary
 // Functions (1980). Taylor series then give the sine and the cosine.
 namespace gpu_planning_scene::core

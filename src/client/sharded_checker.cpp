@@ -69,11 +69,18 @@ struct ShardedChecker::Impl
       {
         const auto answer =
             node->call<gpu_planning_scene::GetPlanningScene>("get_planning_scene", request, is_cancelled);
-        if (answer.success && answer.scene.scene_revision != 0)
+        const std::uint64_t revision = answer.scene.scene_revision;
+        // A replica may lag behind. The leader's revisions begin anew when it starts again.
+        if (answer.success && revision != 0 && (node == nodes.front() || revision >= newest))
+        {
+          newest = revision;
           return commonStateOf(answer.scene);
-        failure = {
-            answer.success ? Failure().status : answer.status,
-            node->node() + ": its scene is missing: " + (answer.success ? "it has no revision" : answer.message)};
+        }
+        const std::string why = !answer.success ? answer.message
+                                : revision == 0 ? "it has no revision"
+                                                : "it has revision " + std::to_string(revision) + ", but revision " +
+                                                      std::to_string(newest) + " was there before";
+        failure = {answer.success ? Failure().status : answer.status, node->node() + ": its scene is missing: " + why};
       }
       catch (const NoAnswer& fault)
       {
@@ -129,6 +136,7 @@ struct ShardedChecker::Impl
   std::vector<std::unique_ptr<NodeConnections>> nodes;
   std::atomic<std::size_t> next{0};       // the node that gets the next request that is not split
   std::atomic<std::size_t> variables{0};  // of the robot; 0: not known yet
+  std::atomic<std::uint64_t> newest{0};   // revision of the scene
 };
 
 /// One call of check().

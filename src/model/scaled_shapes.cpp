@@ -24,6 +24,36 @@ struct ScalePrimitive
   Shape operator()(const HalfSpace&) const { throw Error("a half-space cannot be scaled"); }
   Shape operator()(const std::shared_ptr<const Mesh>& mesh) const { return mesh; }
 };
+
+/// Whether a shape equals another one of the same kind.
+struct EqualsShape
+{
+  const Shape& other;
+
+  bool operator()(const Box& box) const { return box.size == std::get<Box>(other).size; }
+  bool operator()(const Sphere& sphere) const { return sphere.radius == std::get<Sphere>(other).radius; }
+  bool operator()(const Cylinder& cylinder) const
+  {
+    const auto& second = std::get<Cylinder>(other);
+    return cylinder.radius == second.radius && cylinder.length == second.length;
+  }
+  bool operator()(const Cone& cone) const
+  {
+    const auto& second = std::get<Cone>(other);
+    return cone.radius == second.radius && cone.length == second.length;
+  }
+  bool operator()(const HalfSpace& half_space) const
+  {
+    const auto& second = std::get<HalfSpace>(other);
+    return half_space.normal == second.normal && half_space.offset == second.offset;
+  }
+  bool operator()(const std::shared_ptr<const Mesh>& mesh) const
+  {
+    const auto& second = std::get<std::shared_ptr<const Mesh>>(other);
+    return mesh && second && mesh->vertices == second->vertices && mesh->triangles == second->triangles &&
+           mesh->solid == second->solid;
+  }
+};
 }  // namespace
 
 std::shared_ptr<const Mesh> ShapeScaler::scaledMesh(const std::shared_ptr<const Mesh>& mesh, double factor)
@@ -53,6 +83,17 @@ std::vector<PlacedShape> ShapeScaler::scaled(const std::vector<PlacedShape>& sha
     validateShape(placed.shape, "scaled by " + std::to_string(factor));
   }
   return result;
+}
+
+bool isScaled(const std::vector<PlacedShape>& scaled, const std::vector<PlacedShape>& shapes, double factor)
+{
+  const std::vector<PlacedShape> right = ShapeScaler().scaled(shapes, factor);
+  return std::equal(scaled.begin(), scaled.end(), right.begin(), right.end(),
+                    [](const PlacedShape& a, const PlacedShape& b)
+                    {
+                      return a.pose.matrix() == b.pose.matrix() && a.shape.index() == b.shape.index() &&
+                             std::visit(EqualsShape{b.shape}, a.shape);
+                    });
 }
 
 std::shared_ptr<const RobotModel> RobotModel::scaled(const std::vector<double>& factors) const

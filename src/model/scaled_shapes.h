@@ -22,4 +22,8 @@ class ShapeScaler
 
   std::map<std::pair<const Mesh*, double>, std::shared_ptr<const Mesh>> meshes_;
 };
+
+/// Whether `scaled` is what ShapeScaler makes of the shapes, so that it is not that of an earlier factor or of other
+/// shapes. Throws the errors of ShapeScaler::scaled.
+bool isScaled(const std::vector<PlacedShape>& scaled, const std::vector<PlacedShape>& shapes, double factor);
 }  // namespace gpu_planning_scene::core

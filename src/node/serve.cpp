@@ -107,7 +107,9 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   { return checks.inspectorOf(of); };
   KinematicsServices kinematics(store, others, make_cpu_checker, inspector_of, memory, kinematics_options);
   SceneServices changes(store, look_up, memory, setup);
-  CloudTopic clouds(store, look_up, memory, options.cloud, options.cloud_id);
+  const SceneStore::Lookup find_frame = [&lookup](const StampedFrame& frame)
+  { return lookup(frame, FrameLookup::Clock::now()); };
+  CloudTopic clouds(store, find_frame, options.tf_timeout, memory, options.cloud, options.cloud_id);
   MarkerPublisher markers(own, store, options.marker_rate, options.marker_triangles);
   const ScenePublisher publisher(own, store, options.full_scene_period, setup);
   const ros::WallTimer forget =
@@ -127,11 +129,7 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   };
   std::optional<Sensors> sensors;
   if (!sensors_options.sensors.empty())
-  {
-    const SceneStore::Lookup find_frame = [&lookup](const StampedFrame& frame)
-    { return lookup(frame, FrameLookup::Clock::now()); };
     sensors.emplace(node, own, store, find_frame, options.tf_timeout, memory, diagnostics, sensors_options);
-  }
   const ClearOctomap clear_octomap = [&] { return sensors ? sensors->clear() : changes.clearOctomap(); };
 
   MoveItInterface moveit(

@@ -7,6 +7,7 @@
 
 #include "gpu_planning_scene/error.h"
 #include "model/rigid_pose.h"
+#include "model/scaled_shapes.h"
 
 // Everything is checked in each scene, except meshes that were found valid before. They are known by their addresses; a
 // weak pointer shows whether an address still belongs to the same mesh. Own method.
@@ -69,7 +70,9 @@ void validateAttached(const AttachedObject& attached, const RobotModel& robot, c
   validatePadding(attached.padding, where);
   const std::vector<double>& scale = robot.linkScale();
   const bool is_scaled = !scale.empty() && scale[static_cast<std::size_t>(attached.link)] != 1.0;
-  if (is_scaled != (attached.scaled_shapes != nullptr))
+  if (is_scaled != (attached.scaled_shapes != nullptr) ||
+      (is_scaled &&
+       !isScaled(*attached.scaled_shapes, attached.object.shapes, scale[static_cast<std::size_t>(attached.link)])))
     throw Error(where + " does not have its link's scale; call PlanningScene::scaleAttached before adding it");
 }
 }  // namespace

@@ -61,6 +61,14 @@ std::vector<double> startingState(const Snapshot& at, const std::map<std::string
   return at.state;
 }
 
+std::vector<std::string> namesOf(const std::vector<Variable>& variables)
+{
+  std::vector<std::string> names;
+  for (const Variable& variable : variables)
+    names.push_back(variable.name);
+  return names;
+}
+
 /// Sets the given variables. Names that the robot lacks are ignored.
 void assign(const RobotModel& robot, const std::map<std::string, double>& variables, std::vector<double>& state,
             std::vector<bool>& known)
@@ -140,7 +148,8 @@ void dropMeasured(const Snapshot& now, SceneChange& change)
 }
 
 SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits, BaseSource base_source)
-  : defaults_(std::move(defaults)),
+  : history_(namesOf(scene.robot->variables())),
+    defaults_(std::move(defaults)),
     limits_(limits),
     base_source_(std::move(base_source)),
     virtual_variables_(virtualVariables(*scene.robot))
@@ -279,7 +288,10 @@ std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::strin
     assign(*scene_->robot, variables, state_, known_);
     for (const auto& [name, value] : variables)
       if (const int variable = scene_->robot->variableIndex(name); variable >= 0)
+      {
         stamps_[static_cast<std::size_t>(variable)] = 0;
+        measured_at_[static_cast<std::size_t>(variable)] = Clock::time_point::min();
+      }
     keep(before);
   }
   arrived_.notify_all();
@@ -349,17 +361,25 @@ std::string SceneStore::updateState(const std::map<std::string, double>& variabl
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const RobotModel& robot = *scene_->robot;
-  for (const auto& [name, value] : variables)
-    if (robot.variableIndex(name) >= 0 && !std::isfinite(value))
-      throw Error("the position of '" + name + "' is not a finite number");
-  assign(robot, variables, state_, known_);
   std::string warning;
+  std::vector<std::string> not_finite;
   for (const auto& [name, value] : variables)
   {
     const int variable = robot.variableIndex(name);
     if (variable < 0)
       continue;
     const auto index = static_cast<std::size_t>(variable);
+    if (!std::isfinite(value))
+    {
+      known_[index] = false;
+      measured_at_[index] = Clock::time_point::min();
+      stamps_[index] = 0;
+      history_.add(index, 0.0, 0);
+      not_finite.push_back(name);
+      continue;
+    }
+    state_[index] = value;
+    known_[index] = true;
     measured_at_[index] = Clock::now();
     std::int64_t& known = stamps_[index];
     if (stamp != 0 && stamp < known && warning.empty())
@@ -367,8 +387,10 @@ std::string SceneStore::updateState(const std::map<std::string, double>& variabl
                 std::to_string(static_cast<double>(known - stamp) * 1e-9) +
                 " s; the new value counts: if the clock was not set back, look for a second publisher of this joint";
     known = stamp;
+    history_.add(index, value, stamp);
   }
-  history_.add(stamp, state_);
+  if (!not_finite.empty())
+    throw Error("the position is not a finite number, so it is unknown now, of: " + nameList(not_finite));
   return warning;
 }
 
@@ -378,9 +400,10 @@ std::vector<double> SceneStore::stateAt(std::int64_t stamp) const
   std::vector<bool> known;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const std::vector<double>* at_stamp = stamp == 0 ? nullptr : history_.nearest(stamp);
-    state = at_stamp != nullptr ? *at_stamp : state_;
+    state = state_;
     known = known_;
+    if (stamp != 0)
+      history_.setNearest(stamp, state);
   }
   assumeBase(stamp, known, state);
   return state;

@@ -65,7 +65,7 @@ class SceneStore
  public:
   /// Returns the pose of the robot at a time in nanoseconds (0: the newest pose). It is called for each snapshot, while
   /// no state has set any variable of the virtual joint. It must be thread-safe, and must not wait. Throws Error if the
-  /// pose of that time is no longer available, never for 0.
+  /// pose of that time is no longer available, and NotKnownYet if it is not yet available; neither for 0.
   using BaseSource = std::function<AssumedBase(std::int64_t stamp)>;
 
   /// The robot's state starts as the current state of `scene`; without one, it is unknown. Without `base_source`, the
@@ -120,14 +120,14 @@ class SceneStore
   /// contact that the default of the other body allows with a new object of that name.
   Applied clear();
 
-  /// Sets the robot's variables, by name; names that the robot lacks are ignored. The revision stays the same. If a
-  /// value is not finite, it throws Error and sets nothing. `stamp`: nanoseconds; 0: unknown. Returns a warning if a
-  /// variable already has a value of a later time: the new value counts all the same, as in MoveIt. Otherwise
-  /// returns an empty text.
+  /// Sets the robot's variables, by name; names that the robot lacks are ignored. The revision stays the same.
+  /// `stamp`: nanoseconds; 0: unknown. Returns a warning if a variable already has a value of a later time: the new
+  /// value counts all the same, as in MoveIt. Otherwise returns an empty text. A variable whose value is not finite is
+  /// unknown from then on: its old value may be wrong by now. After the others are set, it throws Error.
   std::string updateState(const std::map<std::string, double>& variables, std::int64_t stamp = 0);
-  /// The state whose stamp is nearest to `stamp` (nanoseconds; 0: the newest state). If no state had a stamp, it is the
-  /// newest state. Throws Error if the states of that time have already been dropped (see StateHistory,
-  /// BaseSource).
+  /// The state with the values whose stamps are nearest to `stamp` (nanoseconds; 0: the newest state). A variable
+  /// without stamps has its newest value. Throws Error if a value of that time is not there or not kept any more (see
+  /// StateHistory), and the errors of BaseSource.
   std::vector<double> stateAt(std::int64_t stamp) const;
 
   /// Called after each change with the scenes before and after it, in the order of revisions. During the call, readers

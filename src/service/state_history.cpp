@@ -3,47 +3,63 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
-#include <string>
 
 #include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 
 namespace gpu_planning_scene::core
 {
-void StateHistory::add(std::int64_t stamp, const std::vector<double>& state)
+void StateHistory::add(std::size_t variable, double value, std::int64_t stamp)
 {
+  Values& values = values_[variable];
+  std::deque<Stamped>& by_stamp = values.by_stamp;
   if (stamp == 0)
+  {
+    values = {};
     return;
-  if (!states_.empty() && stamp < states_.back().stamp - kKept)
-  {
-    states_.clear();
-    forgot_ = false;
   }
-  const auto after = std::upper_bound(states_.begin(), states_.end(), stamp,
-                                      [](std::int64_t value, const Stamped& other) { return value < other.stamp; });
-  states_.insert(after, {stamp, state});
-  while (states_.front().stamp < states_.back().stamp - kKept)
+  while (!by_stamp.empty() && by_stamp.back().stamp > stamp + kNear)
+    by_stamp.pop_back();
+  values.forgot = values.forgot && !by_stamp.empty();
+  const auto at = std::lower_bound(by_stamp.begin(), by_stamp.end(), stamp,
+                                   [](const Stamped& other, std::int64_t wanted) { return other.stamp < wanted; });
+  if (at != by_stamp.end() && at->stamp == stamp)
+    at->value = value;
+  else
+    by_stamp.insert(at, {stamp, value});
+  while (by_stamp.front().stamp < by_stamp.back().stamp - kKept)
   {
-    states_.pop_front();
-    forgot_ = true;
+    by_stamp.pop_front();
+    values.forgot = true;
   }
 }
 
-const std::vector<double>* StateHistory::nearest(std::int64_t stamp) const
+/// `values` has at least one.
+const StateHistory::Stamped& StateHistory::nearest(const Values& values, std::int64_t stamp)
 {
-  if (states_.empty())
-    return nullptr;
-  const auto after = std::lower_bound(states_.begin(), states_.end(), stamp,
-                                      [](const Stamped& state, std::int64_t value) { return state.stamp < value; });
-  if (after == states_.begin() && forgot_ && after->stamp != stamp)
-    throw Error("the robot's state of " + std::to_string((states_.back().stamp - stamp) / 1'000'000'000) +
+  const std::deque<Stamped>& by_stamp = values.by_stamp;
+  const auto after = std::lower_bound(by_stamp.begin(), by_stamp.end(), stamp,
+                                      [](const Stamped& other, std::int64_t wanted) { return other.stamp < wanted; });
+  if (after == by_stamp.begin() && values.forgot && after->stamp != stamp)
+    throw Error("the robot's state of " + std::to_string((by_stamp.back().stamp - stamp) / 1'000'000'000) +
                 " s ago is not available; the last " + std::to_string(kKept / 1'000'000'000) + " s are kept");
-  auto nearest = after;
-  if (after == states_.end() || (after != states_.begin() && after->stamp - stamp >= stamp - std::prev(after)->stamp))
-    nearest = std::prev(after);
-  if (const std::int64_t difference = std::abs(nearest->stamp - stamp); difference > kNear)
-    throw Error("the nearest known state of the robot is " + numberText(1e-9 * static_cast<double>(difference)) +
-                " s away in time; publish joint_states at least every second, with the same clock");
-  return &nearest->state;
+  if (after == by_stamp.end() || (after != by_stamp.begin() && after->stamp - stamp >= stamp - std::prev(after)->stamp))
+    return *std::prev(after);
+  return *after;
+}
+
+void StateHistory::setNearest(std::int64_t stamp, std::vector<double>& state) const
+{
+  for (std::size_t i = 0; i < values_.size(); ++i)
+  {
+    if (values_[i].by_stamp.empty())
+      continue;
+    const Stamped& found = nearest(values_[i], stamp);
+    if (const std::int64_t difference = std::abs(found.stamp - stamp); difference > kNear)
+      throw Error("the nearest known value of '" + names_[i] + "' is " +
+                  numberText(1e-9 * static_cast<double>(difference)) +
+                  " s away in time; publish joint_states at least every second, with the same clock");
+    state[i] = found.value;
+  }
 }
 }  // namespace gpu_planning_scene::core

@@ -2,33 +2,45 @@
 
 #include <cstdint>
 #include <deque>
+#include <string>
 #include <vector>
 
 namespace gpu_planning_scene::core
 {
-/// The robot's states of the last 10 seconds, ordered by stamp. Not thread-safe.
+/// The values of the robot's variables in the last 10 seconds, ordered by stamp. Each variable has its own stamps,
+/// because several publishers may bring parts of the state. Not thread-safe.
 class StateHistory
 {
  public:
-  static constexpr std::int64_t kKept = 10'000'000'000;  ///< nanoseconds before the newest stamp
+  static constexpr std::int64_t kKept = 10'000'000'000;  ///< nanoseconds before the newest stamp of a variable
+  static constexpr std::int64_t kNear = 1'000'000'000;   ///< nanoseconds: the largest difference of setNearest()
 
-  /// A stamp of 0 means "no stamp": the state is not kept. If the stamp is more than kKept before the newest one (the
-  /// clock was set back), all other states are dropped.
-  void add(std::int64_t stamp, const std::vector<double>& state);
+  /// `names`: of the variables, for messages.
+  explicit StateHistory(std::vector<std::string> names) : names_(std::move(names)), values_(names_.size()) {}
 
-  static constexpr std::int64_t kNear = 1'000'000'000;  ///< nanoseconds: the largest difference of nearest()
+  /// A stamp of 0 means "no stamp": the variable then has no history. Values that are more than kNear later than
+  /// `stamp` are dropped, because the clock was set back.
+  void add(std::size_t variable, double value, std::int64_t stamp);
 
-  /// The state whose stamp (nanoseconds) is nearest; null if there is none. Throws Error if its stamp differs by more
-  /// than kNear, or if `stamp` is before all kept states and older states were dropped.
-  const std::vector<double>* nearest(std::int64_t stamp) const;
+  /// Sets each variable that has a history to its value at the nearest stamp (nanoseconds). Throws Error if this stamp
+  /// differs by more than kNear, or if `stamp` is before all kept values and older ones were dropped.
+  void setNearest(std::int64_t stamp, std::vector<double>& state) const;
 
  private:
   struct Stamped
   {
     std::int64_t stamp;
-    std::vector<double> state;
+    double value;
   };
-  std::deque<Stamped> states_;  // ordered by stamp
-  bool forgot_ = false;         // whether older states were dropped
+  struct Values
+  {
+    std::deque<Stamped> by_stamp;
+    bool forgot = false;  // whether older values were dropped
+  };
+
+  static const Stamped& nearest(const Values& values, std::int64_t stamp);
+
+  std::vector<std::string> names_;
+  std::vector<Values> values_;
 };
 }  // namespace gpu_planning_scene::core

@@ -29,7 +29,7 @@ std::vector<Option> options()
     if (option.name != "--urdf" && option.name != "--srdf")
       all.push_back(option);
   all.push_back({"--drop-checked", "", "with --srdf: also disable pairs that this SRDF checks"});
-  all.push_back({"--samples", "N", "random states (default 10000)"});
+  all.push_back({"--samples", "N", "random states, at least 100 (default 10000)"});
   all.push_back({"--seed", "S", "seed of the random states (default 0)"});
   all.push_back(
       {"--always-share", "P", "pairs that collide in at least this share of the states\nare Always (default 0.95)"});
@@ -151,7 +151,7 @@ void run(const CommandLine& arguments)
 {
   arguments.required("--urdf");
   GeneratorOptions generator;
-  generator.samples = arguments.count("--samples", generator.samples, 1, 1000000000);
+  generator.samples = arguments.count("--samples", generator.samples, 100, 1000000000);
   generator.seed = arguments.count("--seed", 0, 0, std::numeric_limits<long long>::max());
   generator.always_share = arguments.number("--always-share", generator.always_share, 0.0, 1.0);
   generator.proof_tests = arguments.count("--proof-tests", generator.proof_tests, 0, 1000000000);

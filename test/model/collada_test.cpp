@@ -111,6 +111,16 @@ TEST_F(Collada, InstancesOfNodesNestAndANodeCannotContainItself)
   EXPECT_NE(errorOfReading(text).find("it contains itself"), std::string::npos);
 }
 
+TEST_F(Collada, AnUnknownElementOfANodeIsRefusedBecauseItMayHoldAMesh)
+{
+  const std::string instance = "<instance_geometry url=\"#g\"/>";
+  for (const char* known : {"<extra><foo/></extra>", "<instance_light url=\"#l\"/>", "<instance_camera url=\"#c\"/>"})
+    EXPECT_EQ("", errorOfReading(changed(instance, known + instance))) << known;
+  EXPECT_NE(
+      errorOfReading(changed(instance, instance + "<nodes>" + instance + "</nodes>")).find("unknown element <nodes>"),
+      std::string::npos);
+}
+
 TEST_F(Collada, UnitsApplyOnce)
 {
   expectPlaced(daeText(triangle(), "Z_UP", 0.01), Eigen::Affine3d(Eigen::Scaling(0.01)));

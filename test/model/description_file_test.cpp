@@ -57,7 +57,7 @@ TEST_F(XacroFile, IsExpandedWhereXacroIsInstalled)
   EXPECT_EQ("all", robot->groups().at(0).name);
   EXPECT_TRUE(warnings.empty()) << warnings[0];
   const std::string by = "' is a xacro file: it was expanded with its default arguments by " + xacro.program();
-  EXPECT_EQ((std::vector<std::string>{"SRDF '" + srdf + by, "URDF '" + path_ + by}), info_);
+  EXPECT_EQ((std::vector<std::string>{"URDF '" + path_ + by, "SRDF '" + srdf + by}), info_);
 }
 
 /// Does what xacro does: looks for a folder with the package's manifest on ROS_PACKAGE_PATH, and reads a file there.

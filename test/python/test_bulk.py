@@ -19,7 +19,9 @@ import numpy as np
 import gpu_planning_scene as gps
 from bulk_runs import ARM_OPTIONS, bulk, content, shards, started_bulk, wait_for_shards
 from gpu_planning_scene.bulk import RobotBundle, SceneBundle
-from gpu_planning_scene.bulk.states import BLOCK, PART, RandomSlice
+from gpu_planning_scene.bulk.run import Job, Scene
+from gpu_planning_scene.bulk.shards import VerdictFiles
+from gpu_planning_scene.bulk.states import BLOCK, PART, RandomSlice, RandomStates
 from robots import (ARM, ARM_SCENE, EXPAND, KR5, KR5_SCENE, RAIL, RAIL_SRDF, RAIL_XACRO, ROOT, Case, arm, arm_scene,
                     kr5, kr5_scene, xacro)
 
@@ -99,6 +101,11 @@ class Checks(Folder):
         self.assertEqual(valid, [each["valid"] for each in index["shards"]])
         self.assertIn(f"250 states, {sum(valid)} valid; 3 of 3 shards computed now", line)
         self.assertFalse((self.out / "journal").exists())
+
+    def test_the_order_of_the_names_is_that_of_the_shards(self):
+        scenes = [Scene(SceneBundle("scene", "", (), ""), None)]
+        names = Job(None, scenes, RandomStates(1000001, seed=0), 1, VerdictFiles(".npy", [], False)).names()
+        self.assertLess(names[999999], names[1000000])
 
     def test_random_states_do_not_depend_on_the_shards(self):
         robot = arm()

@@ -168,6 +168,15 @@ class Cluster(Case):
         self.assertEqual(1, len(logged.records), logged.output)
         self.assertIn("forgotten", str(logged.records[0].exc_info[1]))
 
+    def test_a_warning_of_a_worker_is_shown(self):
+        states = np.zeros((40, len(arm().variables)))
+        states[:, 0] = 90.0
+        np.save(self.folder / "degrees.npy", states)
+        status, line, warnings = bulk(*self.options("--states", self.folder / "degrees.npy", "--shard", 10,
+                                                    "--out", self.out))
+        self.assertEqual(0, status, line)
+        self.assertEqual(1, warnings.count("90 degrees are"), warnings)
+
     def test_the_cluster_and_this_machine_write_the_same_bytes(self):
         run = ["--random", 4000, "--shard", 250, "--seed", 3]
         expected = self.whole(*run)

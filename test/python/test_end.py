@@ -4,6 +4,7 @@ import pathlib
 import subprocess
 import sys
 import tempfile
+import textwrap
 import time
 import unittest
 
@@ -63,6 +64,22 @@ def make_proofs(folder):
 
 
 class End(unittest.TestCase):
+    def test_a_forked_child_ends(self):
+        program = textwrap.dedent(f"""
+            import os, sys
+            sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
+            import gpu_planning_scene as gps
+            from robots import arm_scene
+            checker = gps.StateChecker(arm_scene(), device="cpu")
+            states = checker.scene.robot.random_states(2000, seed=1)
+            valid = checker.check(states).valid.tolist()
+            child = os.fork()
+            if child == 0:
+                sys.exit(0 if checker.check(states[:100]).valid.tolist() == valid[:100] else 1)
+            sys.exit(os.WEXITSTATUS(os.waitpid(child, 0)[1]))
+        """)
+        subprocess.run([sys.executable, "-c", program], check=True, timeout=100)
+
     def test_python_ends_soon_while_a_table_is_made(self):
         with tempfile.TemporaryDirectory() as folder:
             pathlib.Path(folder, "shells.urdf").write_text(SHELLS, encoding="utf-8")

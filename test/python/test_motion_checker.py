@@ -85,6 +85,25 @@ class MotionChecker(Case):
             ended.set()
             thread.join()
 
+    def test_a_checker_can_be_made_while_another_thread_checks(self):
+        scene = kr5_scene()
+        checker = gps.StateChecker(scene, device="cpu")
+        states = scene.robot.random_states(20000, seed=1)
+        ended = threading.Event()
+
+        def check():
+            while not ended.is_set():
+                checker.check(states)
+
+        thread = threading.Thread(target=check)
+        thread.start()
+        try:
+            for _ in range(5):
+                gps.MotionChecker(checker)
+        finally:
+            ended.set()
+            thread.join()
+
     def test_ends_can_be_states_of_the_srdf(self):
         scene = arm_scene()
         start, end = np.tile(scene.current_state, (2, 1))

@@ -114,6 +114,12 @@ class Client(unittest.TestCase):
         with self.assertRaises(genpy.SerializationError):
             check(joint_names=["joint"], positions=["far"])
 
+    def test_a_request_is_the_only_argument(self):
+        check = ShardedChecker(["/nobody"])
+        for arguments, fields in (((CheckStatesRequest(),), {"positions": [1.0]}), ((CheckStatesRequest(), ["a"]), {})):
+            with self.assertRaisesRegex(TypeError, "is the only argument"):
+                check(*arguments, **fields)
+
     def test_threads_share_a_checker(self):
         check = ShardedChecker(["/free"])
         wrong = []

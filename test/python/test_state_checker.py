@@ -239,11 +239,31 @@ class StateChecker(Case):
         self.assert_one_line(gps.Error, "^states: the SRDF has no state 'nose'; its states: .*arm/ready",
                              checker.check, ["ready", "nose"])
 
+    def test_the_columns_of_a_table_must_be_the_variables_in_their_order(self):
+        class Table:
+            """As a pandas.DataFrame."""
+            def __init__(self, values, columns):
+                self.values, self.columns = values, columns
+
+            def __array__(self, *_, **__):
+                return self.values
+
+        checker = gps.StateChecker(arm_scene(), device="cpu")
+        names = list(checker.scene.robot.variable_names)
+        states = checker.scene.robot.random_states(10, seed=1)
+        valid = checker.check(states).valid.tolist()
+        for columns in (names, range(len(names))):  # names, or the numbers of a table without names
+            self.assertEqual(valid, checker.check(Table(states, columns)).valid.tolist())
+        self.assert_one_line(gps.Error, "^states: the columns are .*in this order", checker.check,
+                             Table(states[:, ::-1], names[::-1]))
+
     def test_wrong_states_and_groups_are_errors(self):
         checker = gps.StateChecker(gps.PlanningScene(rail()), device="cpu")
         for states in (np.zeros((3, 2)), np.zeros((2, 2, 1)), 1.0):
             self.assert_one_line(gps.Error, "^states: the shape is", checker.check, states)
-        for states in (np.ma.array([[1.0]], mask=[[True]]), np.ones((1, 1), bool), None, [["a"]], [0.0, "a"], np.zeros((1, 1), complex), [[1.0], [1.0, 2.0]], np.array([[None]])):
+        masked = np.ma.array([1.0], mask=[True])
+        for states in (np.ma.array([[1.0]], mask=[[True]]), masked.view(type("Own", (np.ma.MaskedArray,), {})),
+                       [masked, [0.0]], np.ones((1, 1), bool), None, [["a"]], [0.0, "a"], np.zeros((1, 1), complex), [[1.0], [1.0, 2.0]], np.array([[None]])):
             self.assert_one_line(TypeError, "^states: expected an array of numbers", checker.check, states)
         for value in (float("nan"), float("inf"), -float("inf")):
             self.assert_one_line(gps.Error, "^state 1: the value of variable 'slide'", checker.check, [[0.0], [value]])

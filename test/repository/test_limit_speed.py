@@ -13,13 +13,13 @@ class LimitSpeed(unittest.TestCase):
     def scale(self, *states):
         return limit_speed.scale_of(states, slow=0.1, stop=0.02)
 
-    def test_no_joint_moves_far_between_two_states(self):
-        states = limit_speed.future_states([0.5, 1.0], [1.0, -0.2], 0.5)
+    def test_the_joints_together_move_no_farther_than_a_step_between_two_states(self):
+        states = limit_speed.future_states([0.5, 1.0], [1.0, -0.2], 0.5, 0.02)
         self.assertEqual([0.5, 1.0], states[0])
         self.assertAlmostEqual(1.0, states[-1][0])
         self.assertAlmostEqual(0.9, states[-1][1])
         for before, after in zip(states, states[1:]):
-            self.assertLessEqual(abs(after[0] - before[0]), limit_speed.STEP + 1e-12)
+            self.assertLessEqual(sum(abs(b - a) for a, b in zip(before, after)), 0.02 + 1e-12)
 
     def test_a_pair_that_comes_nearer_slows_the_command(self):
         self.assertEqual(1.0, self.scale({}, {}))

@@ -186,6 +186,10 @@ TEST_F(ChangeObjects, InvalidChangesAreRefused)
   refused("at most 1000 km", objectChange(Operation::Add, "a", {boxAt(1e307)}));
   refused("farther than 1000 km", objectChange(Operation::Add, "a", {boxAt(0.1, poseAt(1e307, 0, 0))}));
   refused("not finite", objectChange(Operation::Add, "a", {boxAt(0.1, poseAt(nan, 0, 0))}));
+  ObjectChange beyond = objectChange(Operation::Add, "b", {boxAt(0.1, poseAt(9e5, 0, 0))});
+  beyond.frame.name = "far";
+  change(objectChange(Operation::Add, "far", {boxAt(0.1, poseAt(9e5, 0, 0))}));
+  refused("a place in frame 'far'", beyond);
   ObjectChange move = objectChange(Operation::Move, "a");
   move.shape_poses = {poseAt(0, 0, 0), poseAt(0, 0, 0)};
   refused("2 poses for its 1 shapes", move);

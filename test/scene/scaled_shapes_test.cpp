@@ -107,6 +107,28 @@ TEST(ScaledShapes, AttachedObjectsNeedTheScaleOfTheirLink)
   EXPECT_NO_THROW(validateScene(scene));
 }
 
+TEST(ScaledShapes, AttachedObjectsWithAnEarlierScaleOrShapeAreRefused)
+{
+  PlanningScene scene(sliderRobot());
+  std::vector<double> both = factors(*scene.robot, "cart", 1.2);
+  both[static_cast<std::size_t>(scene.robot->linkIndex("pole"))] = 2.0;
+  scene.setLinkScale(both);
+  AttachedObject carried;
+  carried.link = scene.robot->linkIndex("cart");
+  carried.object.id = "a";
+  const Mesh mesh{"mesh", {{1, 0, 0}, {4, 0, 0}, {1, 3, 0}}, {{0, 1, 2}}};
+  carried.object.shapes = {{Sphere{1.0}}, {std::make_shared<const Mesh>(mesh)}};
+  scene.scaleAttached(carried);
+  scene.attached = {carried};
+  EXPECT_EQ("", errorOf([&] { validateScene(scene); }));
+  const auto refused = [&scene] { return errorOf([&] { validateScene(scene); }).find("its link's scale"); };
+  scene.attached[0].link = scene.robot->linkIndex("pole");
+  EXPECT_NE(std::string::npos, refused());
+  scene.attached = {carried};
+  scene.attached[0].object.shapes[0].shape = Sphere{5.0};
+  EXPECT_NE(std::string::npos, refused());
+}
+
 TEST(ScaledShapes, WrongFactorsAreRefusedAndChangeNothing)
 {
   PlanningScene scene(sliderRobot());

@@ -306,7 +306,10 @@ TEST_F(Store, JointStatesChangeNoRevision)
   EXPECT_TRUE(store.snapshot().allKnown());
   EXPECT_EQ(0u, store.snapshot().scene->revision);
   EXPECT_THROW(store.updateState({{"slide", 1.0}, {"turn", std::numeric_limits<double>::quiet_NaN()}}), Error);
-  EXPECT_EQ((std::vector<double>{0.5, 0.25}), store.snapshot().state);
+  EXPECT_EQ(1.0, store.snapshot().state[0]) << "the others go on";
+  EXPECT_EQ((std::vector<bool>{true, false}), store.snapshot().known) << "the joint may be anywhere by now";
+  store.updateState({{"turn", 0.25}});
+  EXPECT_TRUE(store.snapshot().allKnown());
 }
 
 TEST_F(Store, TheStateAtAStampIsTheNearestOfTheLastSeconds)
@@ -332,6 +335,37 @@ TEST_F(Store, TheStateAtAStampIsTheNearestOfTheLastSeconds)
   EXPECT_THROW(store.stateAt(5 * kSecond), Error) << "older than what is kept";
   store.updateState({{"slide", 0.125}}, 2 * kSecond);  // the clock was set back, as in a simulation
   EXPECT_EQ(0.125, store.stateAt(3 * kSecond).at(0));
+}
+
+TEST_F(Store, TheStateAtAStampNeedsANearValueOfEachMeasuredVariable)
+{
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  store.updateState({{"slide", 0.25}}, 5 * kSecond);
+  store.updateState({{"turn", 0.5}}, 5 * kSecond);
+  store.updateState({{"turn", 0.75}}, 7 * kSecond);
+  EXPECT_EQ((std::vector<double>{0.25, 0.5}), store.stateAt(5 * kSecond + kSecond / 2));
+  try
+  {
+    store.stateAt(7 * kSecond);
+    ADD_FAILURE() << "nothing is known about the place of 'slide'";
+  }
+  catch (const Error& error)
+  {
+    EXPECT_NE(std::string(error.what()).find("the nearest known value of 'slide' is 2 s away"), std::string::npos)
+        << error.what();
+  }
+  store.updateState({{"slide", 1.0}});
+  EXPECT_EQ((std::vector<double>{1.0, 0.75}), store.stateAt(7 * kSecond)) << "without a stamp, the newest value counts";
+}
+
+TEST_F(Store, AClockThatIsSetBackByLessThanTheKeptTimeForgetsTheValuesOfBefore)
+{
+  constexpr std::int64_t kSecond = 1'000'000'000;
+  for (int i = 0; i <= 8; ++i)
+    store.updateState({{"slide", 0.1 * i}, {"turn", 0.0}}, (1 + i) * kSecond);
+  store.updateState({{"slide", 1.0}, {"turn", 0.0}}, 2 * kSecond);
+  EXPECT_EQ(1.0, store.stateAt(2 * kSecond).at(0));
+  EXPECT_THROW(store.stateAt(5 * kSecond), Error) << "this time is still to come";
 }
 
 TEST_F(Store, ATimeThatJumpsBackIsAWarningAndTheNewValueCounts)

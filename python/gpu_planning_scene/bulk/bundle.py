@@ -7,6 +7,7 @@ import hashlib
 import os
 import pathlib
 import tempfile
+import threading
 import warnings
 from typing import Callable, Dict, Iterator, Optional, Tuple
 
@@ -89,10 +90,14 @@ class _FoundFiles:
                      for uri, path in sorted(self._paths.items()))
 
 
+_filtering = threading.Lock()
+
+
 @contextlib.contextmanager
 def _unpacked(files: Tuple[File, ...]) -> Iterator[Callable[[str], str]]:
     """A function from a URI to a path. The warnings of the files were shown when the bundle was made."""
-    with tempfile.TemporaryDirectory(prefix="gpu_planning_scene_") as folder, warnings.catch_warnings():
+    # The filters are those of the whole process, so only one thread at a time may change and restore them.
+    with tempfile.TemporaryDirectory(prefix="gpu_planning_scene_") as folder, _filtering, warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
         paths = {}
         for i, file in enumerate(files):

@@ -3,7 +3,9 @@ each of them to a worker once, and makes it anew if all workers that had it are 
 from __future__ import annotations
 
 import asyncio
+import dataclasses
 import os
+import threading
 import uuid
 import warnings
 from concurrent.futures import CancelledError
@@ -61,7 +63,10 @@ class DaskRunner(Runner):
                 task = await self._client.scatter(task, workers=[worker], hash=False)
             future = self._client.submit(_perform, self._sent(self._robot), self._sent(scene), task, self._device,
                                          workers=[worker], pure=False, key=f"shard-{number}-{uuid.uuid4().hex}")
-            return await future
+            answer = await future
+            for text in answer.warnings:
+                warnings.warn(text)  # each text once
+            return answer
         except (distributed.scheduler.KilledWorker, CancelledError, OSError, asyncio.TimeoutError) as error:
             raise WorkerLost(first_line(error)) from None
 
@@ -86,5 +91,28 @@ def _same(bundle: Union[RobotBundle, SceneBundle]) -> Union[RobotBundle, SceneBu
     return bundle
 
 
+_heard = threading.local()
+_hearing = threading.Lock()
+
+
+def _hear_warnings() -> None:
+    """Lets the warnings of each thread of this worker be collected in _heard.texts."""
+    with _hearing:
+        show = warnings.showwarning
+        if getattr(show, "is_hearing", False):
+            return
+
+        def hear(message: Any, *details: Any, **named: Any) -> None:
+            getattr(_heard, "texts", []).append(str(message))
+            show(message, *details, **named)
+
+        hear.is_hearing = True
+        warnings.showwarning = hear
+        warnings.simplefilter("always", UserWarning)  # also if an earlier run had the same
+
+
 def _perform(robot: RobotBundle, scene: SceneBundle, task: work.Task, device: str) -> work.Answer:
-    return work.perform(robot, scene, task, os.environ.get(DEVICE_VARIABLE, device))
+    _hear_warnings()
+    _heard.texts = []
+    answer = work.perform(robot, scene, task, os.environ.get(DEVICE_VARIABLE, device))
+    return dataclasses.replace(answer, warnings=tuple(dict.fromkeys(_heard.texts)))

@@ -51,7 +51,8 @@ class Job:
 
     def names(self) -> List[str]:
         """The file of each shard."""
-        return [f"{scene.bundle.name}/{i:06d}{self.files.suffix}"
+        digits = max(6, len(str(self.per_scene - 1)))  # so that the order of the names is that of the shards
+        return [f"{scene.bundle.name}/{i:0{digits}d}{self.files.suffix}"
                 for scene in self.scenes for i in range(self.per_scene)]
 
     def first(self, number: int) -> int:

@@ -7,6 +7,7 @@ import hashlib
 import io
 import os
 import pathlib
+import warnings
 from typing import Any, Dict, Iterator, List, Optional, Set, Tuple, Union
 
 import numpy as np
@@ -77,6 +78,10 @@ class ArraySlice:
         if missing and base is None:
             raise gps.Error(f"no value for {', '.join(missing)}: the table has no such column, and the scene has no "
                             "robot_state")
+        assumed = [name for name in robot.variable_names if name not in self.names and name in with_default]
+        if assumed and base is None:
+            warnings.warn(f"no value for {', '.join(assumed)}: the table has no such column, and the scene has no "
+                          "robot_state; the default values are used")
         states = np.empty((len(self.values), len(robot.variables)))
         states[:] = robot.default_state() if base is None else base
         states[:, columns] = self.values

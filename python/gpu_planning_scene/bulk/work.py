@@ -44,9 +44,11 @@ Task = Union[CheckTask, PlanTask]
 
 @dataclasses.dataclass(frozen=True)
 class Answer:
-    """The answer of a shard. hardware: the host and the device, which a restarted worker has again."""
+    """The answer of a shard. hardware: the host and the device, which a restarted worker has again. warnings: of a
+    worker on another machine, where nobody sees them."""
     data: bytes
     hardware: str
+    warnings: Tuple[str, ...] = ()
 
 
 class PreparedScene:

@@ -22,14 +22,29 @@ std::size_t pixelOf(int x, int y, int width)
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
 }
 
-/// The pixels in which the interval [low, high] at the depths [near, far] may appear, and one more on each side.
-PixelRange pixelsOf(double low, double high, double near, double far, double focal_length, double centre, int size)
+struct PixelInterval
 {
-  const double first = centre + focal_length * std::min(low / near, low / far);
-  const double last = centre + focal_length * std::max(high / near, high / far);
+  double first;
+  double last;
+};
+
+/// The pixels in which the interval [centre - radius, centre + radius] at the depths [near, far] may appear, and one
+/// more on each side. They may be outside the image.
+PixelInterval intervalOf(double centre, double radius, double near, double far, double focal_length,
+                         double principal_point)
+{
+  const double low = centre - radius;
+  const double high = centre + radius;
+  return {std::floor(principal_point + focal_length * std::min(low / near, low / far)) - 1.0,
+          std::ceil(principal_point + focal_length * std::max(high / near, high / far)) + 1.0};
+}
+
+/// The part of an interval that is in the image.
+PixelRange within(const PixelInterval& interval, int size)
+{
   const double border = size - 1;
-  return {static_cast<int>(std::clamp(std::floor(first) - 1.0, 0.0, border)),
-          static_cast<int>(std::clamp(std::ceil(last) + 1.0, 0.0, border))};
+  return {static_cast<int>(std::clamp(interval.first, 0.0, border)),
+          static_cast<int>(std::clamp(interval.last, 0.0, border))};
 }
 }  // namespace
 
@@ -61,16 +76,26 @@ bool DepthView::shows(const Eigen::Vector3d& point) const
   return point.z() > 0.0 && u >= -0.5 && u <= camera_.width - 0.5 && v >= -0.5 && v <= camera_.height - 0.5;
 }
 
+bool DepthView::showsAll(const Eigen::Vector3d& centre, double radius) const
+{
+  const double near = centre.z() - radius;
+  const double far = centre.z() + radius;
+  if (near <= 0.0)
+    return false;
+  const PixelInterval columns = intervalOf(centre.x(), radius, near, far, camera_.fx, camera_.cx);
+  const PixelInterval rows = intervalOf(centre.y(), radius, near, far, camera_.fy, camera_.cy);
+  return columns.first >= 0.0 && columns.last <= camera_.width - 1.0 && rows.first >= 0.0 &&
+         rows.last <= camera_.height - 1.0;
+}
+
 bool DepthView::seesBehind(const Eigen::Vector3d& centre, double radius) const
 {
   const double near = centre.z() - radius;
   const double far = centre.z() + radius;
   if (near <= 0.0 || !shows(centre))
     return false;
-  const PixelRange columns =
-      pixelsOf(centre.x() - radius, centre.x() + radius, near, far, camera_.fx, camera_.cx, camera_.width);
-  const PixelRange rows =
-      pixelsOf(centre.y() - radius, centre.y() + radius, near, far, camera_.fy, camera_.cy, camera_.height);
+  const PixelRange columns = within(intervalOf(centre.x(), radius, near, far, camera_.fx, camera_.cx), camera_.width);
+  const PixelRange rows = within(intervalOf(centre.y(), radius, near, far, camera_.fy, camera_.cy), camera_.height);
   int level = 0;
   while ((std::max(columns.last - columns.first, rows.last - rows.first) >> level) >= kMaxReads)
     ++level;

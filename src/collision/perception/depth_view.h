@@ -22,6 +22,9 @@ class DepthView
   /// Whether a point is in front of the camera and in its image.
   bool shows(const Eigen::Vector3d& point) const;
 
+  /// Whether a ball, with a pixel around it, is in front of the camera and in its image. See seesBehind().
+  bool showsAll(const Eigen::Vector3d& centre, double radius) const;
+
   /// Whether the camera sees what is behind the voxel in a ball. `centre`, `radius`: metres, of the ball, in the
   /// camera's frame (x to the right, y down, z forward). True if the image shows the centre, at least one ray is
   /// measured near the ball, and every measured ray near it ends behind it. "Near" is the ball's bounding rectangle in

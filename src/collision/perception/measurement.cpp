@@ -105,7 +105,8 @@ Measurement measurementOf(const DepthImage& image, const SensorView& view)
       if (depth >= view.min_range && depth <= view.max_range && depth > 0.0)
         points.emplace_back((x - camera.cx) / camera.fx * depth, (y - camera.cy) / camera.fy * depth, depth);
     }
-  Measurement measurement{std::move(points), {}};
+  Measurement measurement;
+  measurement.points = std::move(points);
   measurement.views.push_back({Eigen::Matrix3d::Identity(), DepthView(camera, std::move(rays))});
   return measurement;
 }
@@ -120,6 +121,7 @@ Measurement measurementOf(const std::vector<Vector3f>& points, const SensorView&
   for (std::size_t face = 0; face < 6; ++face)
     rotations[face] = rotationToFace(face);
   Measurement measurement;
+  measurement.looks_everywhere = true;
   measurement.points.reserve(points.size());
   for (const Vector3f& measured : points)
   {

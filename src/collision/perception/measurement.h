@@ -21,6 +21,7 @@ struct Measurement
 {
   std::vector<Eigen::Vector3d> points;  // in the sensor's frame, within the range
   std::vector<PlacedView> views;
+  bool looks_everywhere = false;  // a cloud has no border, although there is no view where it has no points
 };
 
 // Both throw Error if an argument is not valid.

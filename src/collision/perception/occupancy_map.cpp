@@ -39,11 +39,13 @@ struct Voxel
   double seen;            // seconds: SensorView::time of the last hit
   double received;        // seconds: SensorView::received of the last hit
   std::uint8_t evidence;  // 1 to kMaxEvidence
+  bool is_whole;          // a sensor that hit it saw the whole voxel
 };
 
 struct Hit
 {
   std::uint64_t key;
+  bool is_whole;
   bool may_be_robot;  // within the padding of the robot
 };
 
@@ -64,6 +66,7 @@ struct OccupancyMap::Impl
   std::vector<Vector3d> centresOf(const std::vector<Keyed>& some) const;
   std::vector<Voxel> takeKnown(std::vector<Hit>& hits, const Measurement& measurement, const Isometry3d& sensor,
                                const SensorView& view) const;
+  void keepNearest(const Vector3d& place, std::vector<Voxel>& some) const;
 
   const OccupancyMapOptions options;
   const VoxelGrid grid;
@@ -82,7 +85,8 @@ std::vector<Vector3d> OccupancyMap::Impl::centresOf(const std::vector<Keyed>& so
 }
 
 /// The voxels that contain a point of the region and whose centres are in a view, in ascending order of their keys,
-/// each once. A voxel at the border of an image, with its centre outside, could not be removed again.
+/// each once. A voxel at the border of an image, with its centre outside, could not be removed again. A cloud has no
+/// border.
 std::vector<Hit> OccupancyMap::Impl::hitVoxels(const Measurement& measurement, const Isometry3d& sensor) const
 {
   VoxelKeys keys;
@@ -97,26 +101,35 @@ std::vector<Hit> OccupancyMap::Impl::hitVoxels(const Measurement& measurement, c
   for (const std::uint64_t key : keys.take())
   {
     const Vector3d centre = to_sensor * grid.centreOf(key);
-    if (std::any_of(measurement.views.begin(), measurement.views.end(),
-                    [&](const PlacedView& placed) { return placed.depths.shows(placed.from_sensor * centre); }))
-      hits.push_back({key, false});
+    const auto is_shown = [&](const PlacedView& placed) { return placed.depths.shows(placed.from_sensor * centre); };
+    const auto is_whole = [&](const PlacedView& placed)
+    { return placed.depths.showsAll(placed.from_sensor * centre, grid.ballRadius()); };
+    if (measurement.looks_everywhere)
+      hits.push_back({key, true, false});
+    else if (std::any_of(measurement.views.begin(), measurement.views.end(), is_shown))
+      hits.push_back({key, std::any_of(measurement.views.begin(), measurement.views.end(), is_whole), false});
   }
   return hits;
 }
 
 /// The known voxels after a measurement. Takes their hits out of `hits`. A point near the robot counts for a voxel that
-/// is known: a robot that stands beside an obstacle does not let it decay.
+/// is known: a robot that stands beside an obstacle does not let it decay. A voxel at the border of an image is seen
+/// through in its visible half; this removes only a voxel that no sensor has ever seen whole.
 std::vector<Voxel> OccupancyMap::Impl::takeKnown(std::vector<Hit>& hits, const Measurement& measurement,
                                                  const Isometry3d& sensor, const SensorView& view) const
 {
   const Isometry3d to_sensor = sensor.inverse();
-  const double radius = 0.5 * std::sqrt(3.0) * grid.size();  // of the ball around a voxel
   const auto is_seen_through = [&](const Voxel& voxel)
   {
-    const Vector3d centre = to_sensor * grid.centreOf(voxel.key);
-    return std::any_of(measurement.views.begin(), measurement.views.end(),
-                       [&](const PlacedView& placed)
-                       { return placed.depths.seesBehind(placed.from_sensor * centre, radius); });
+    const Vector3d from_sensor = to_sensor * grid.centreOf(voxel.key);
+    return std::any_of(
+        measurement.views.begin(), measurement.views.end(),
+        [&](const PlacedView& placed)
+        {
+          const Vector3d centre = placed.from_sensor * from_sensor;
+          return placed.depths.seesBehind(centre, grid.ballRadius()) &&
+                 (!voxel.is_whole || measurement.looks_everywhere || placed.depths.showsAll(centre, grid.ballRadius()));
+        });
   };
   std::vector<Voxel> known;
   known.reserve(voxels.size());
@@ -128,10 +141,11 @@ std::vector<Voxel> OccupancyMap::Impl::takeKnown(std::vector<Hit>& hits, const M
       others.push_back(*hit);
     if (hit != hits.end() && hit->key == voxel.key)
     {
-      ++hit;
       voxel.seen = isBefore(view.time, voxel.seen) ? voxel.seen : view.time;
       voxel.received = view.received;
       voxel.evidence = std::min<std::uint8_t>(voxel.evidence + 1, kMaxEvidence);
+      voxel.is_whole = voxel.is_whole || hit->is_whole;
+      ++hit;
     }
     else if (options.decay > 0.0 && view.received - voxel.received > options.decay)
       continue;
@@ -166,23 +180,27 @@ std::size_t OccupancyMap::Impl::add(const Measurement& measurement, const Sensor
     removeFlagged(known, near_bodies(known), kNearObject);
   hits.erase(std::remove_if(hits.begin(), hits.end(), [](const Hit& hit) { return hit.may_be_robot; }), hits.end());
 
-  // The nearest voxels come first, up to the bound.
-  const std::size_t room = options.max_voxels - std::min(options.max_voxels, known.size());
-  const std::size_t added = std::min(hits.size(), room);
-  if (added < hits.size())
-    std::nth_element(hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(added), hits.end(),
-                     [&](const Hit& a, const Hit& b)
-                     {
-                       return (grid.centreOf(a.key) - sensor.translation()).norm() <
-                              (grid.centreOf(b.key) - sensor.translation()).norm();
-                     });
-  for (std::size_t i = 0; i < added; ++i)
-    known.push_back({hits[i].key, view.time, view.received, 1});
-  const auto middle = known.end() - static_cast<std::ptrdiff_t>(added);
-  std::sort(middle, known.end(), hasSmallerKey);
-  std::inplace_merge(known.begin(), middle, known.end(), hasSmallerKey);
+  const auto middle = static_cast<std::ptrdiff_t>(known.size());
+  for (const Hit& hit : hits)
+    known.push_back({hit.key, view.time, view.received, 1, hit.is_whole});
+  std::inplace_merge(known.begin(), known.begin() + middle, known.end(), hasSmallerKey);
+  const std::size_t without_room = known.size() - std::min(known.size(), options.max_voxels);
+  if (without_room > 0)
+    keepNearest(sensor.translation(), known);
   voxels = std::move(known);
-  return hits.size() - added;
+  return without_room;
+}
+
+/// Keeps as many voxels as the map may have: those nearest to `place`, in the order of their keys.
+void OccupancyMap::Impl::keepNearest(const Vector3d& place, std::vector<Voxel>& some) const
+{
+  const auto last = some.begin() + static_cast<std::ptrdiff_t>(options.max_voxels);
+  std::nth_element(some.begin(), last, some.end(),
+                   [&](const Voxel& a, const Voxel& b) {
+                     return (grid.centreOf(a.key) - place).squaredNorm() < (grid.centreOf(b.key) - place).squaredNorm();
+                   });
+  some.erase(last, some.end());
+  std::sort(some.begin(), some.end(), hasSmallerKey);
 }
 
 OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <cstdlib>
 #include <deque>
 #include <exception>
 #include <iterator>
@@ -15,6 +16,7 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 // One thread of the process takes the jobs of all checkers in turns, with a low priority, because checks come first. So
 // the proofs of one robot do not wait for all tables of another robot. Own method.
@@ -43,22 +45,18 @@ void lowerPriority()
 class ProofWorker
 {
  public:
+  /// The worker is ended when the process ends, but never destroyed: a child that was forked from the process does not
+  /// have its thread, and would wait for it for ever.
   static ProofWorker& instance()
   {
-    static ProofWorker worker;
-    return worker;
+    static ProofWorker* const worker = []
+    {
+      std::atexit([] { instance().end(); });
+      return new ProofWorker;
+    }();
+    return *worker;
   }
 
-  ~ProofWorker()
-  {
-    {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      ending_ = true;
-    }
-    changed_.notify_all();
-    if (thread_.joinable())
-      thread_.join();
-  }
   ProofWorker(const ProofWorker&) = delete;
   ProofWorker& operator=(const ProofWorker&) = delete;
 
@@ -99,6 +97,21 @@ class ProofWorker
   }
 
  private:
+  ProofWorker() = default;
+
+  void end()
+  {
+    if (getpid() != process_)
+      return;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      ending_ = true;
+    }
+    changed_.notify_all();
+    if (thread_.joinable())
+      thread_.join();
+  }
+
   struct Task
   {
     std::weak_ptr<ProofJob> job;
@@ -176,6 +189,7 @@ class ProofWorker
   std::atomic<bool> ending_{false};
   RobotProver prover_;  // used by the thread only
   std::thread thread_;
+  const pid_t process_ = getpid();
 };
 
 std::shared_ptr<ProofJob> proveInBackground(std::shared_ptr<const RobotModel> robot,

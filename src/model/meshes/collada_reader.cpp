@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <string>
 #include <string_view>
 
 #include "gpu_planning_scene/error.h"
@@ -16,6 +18,10 @@ namespace gpu_planning_scene::core
 namespace
 {
 using tinyxml2::XMLElement;
+
+// Elements of a node or a scene that hold no mesh.
+constexpr std::array<std::string_view, 5> kWithoutMesh = {
+    {"asset", "evaluate_scene", "extra", "instance_camera", "instance_light"}};
 
 /// Metres of a unit of length.
 double unitOf(const XMLElement& asset)
@@ -98,6 +104,9 @@ class SceneReader
             readGeometry(child, pose);
           else if (name == "instance_controller")
             failAt(child, "a mesh that a skeleton deforms cannot be read; export the model without it");
+          else if (!isColladaTransform(child) &&
+                   std::find(kWithoutMesh.begin(), kWithoutMesh.end(), name) == kWithoutMesh.end())
+            failAt(child, "unknown element <" + std::string(name) + ">: it may hold a mesh, which would be lost");
         });
   }
 

@@ -39,21 +39,29 @@ void turn(std::vector<ShapeContact>& contacts)
 
 /// The contacts of a solid `a` with anything.
 std::vector<ShapeContact> contactsOfSolid(const ShapeInstance& a, const ShapeInstance& b, std::size_t most,
-                                          PairScratch& scratch)
+                                          PairScratch& scratch, bool& are_all)
 {
   const double required = a.padding + b.padding;
   if (b.shape->kind() == ShapeKind::Solid)
-    return contactsOfSolids(*a.shape, *a.pose, *b.shape, *b.pose, required, most, scratch);
+  {
+    std::vector<ShapeContact> contacts =
+        contactsOfSolids(*a.shape, *a.pose, *b.shape, *b.pose, required, most, scratch);
+    are_all = contacts.size() < core::kMaxOfPair;
+    return contacts;
+  }
   if (b.shape->kind() == ShapeKind::HalfSpace)
   {
     const core::PlacedHalfSpace half_space = placedHalfSpace(b);
     return {core::contactWithHalfSpace(contactShape(*a.shape, *a.pose), half_space, required)};
   }
   std::vector<ShapeContact> contacts;
-  for (const Leaf& leaf : collidingLeaves(b, a, kMaxLeaves, scratch))
+  const std::vector<Leaf> leaves = collidingLeaves(b, a, kMaxLeaves, scratch);
+  are_all = leaves.size() < kMaxLeaves;
+  for (const Leaf& leaf : leaves)
   {
     const std::vector<ShapeContact> found =
         contactsOfSolids(*a.shape, *a.pose, *leaf.shape, leaf.pose, required, most, scratch);
+    are_all = are_all && found.size() < core::kMaxOfPair;
     contacts.insert(contacts.end(), found.begin(), found.end());
   }
   return contacts;
@@ -106,23 +114,26 @@ NearestPoints nearestPointsOfSolid(const ShapeInstance& a, const ShapeInstance& 
 }  // namespace
 
 std::vector<ShapeContact> contactsOf(const ShapeInstance& a, const ShapeInstance& b, std::size_t max_contacts,
-                                     PairScratch& scratch)
+                                     PairScratch& scratch, bool* are_all)
 {
   std::vector<ShapeContact> contacts;
+  bool are_all_here = true;
   const std::size_t most = std::min(max_contacts, core::kMaxOfPair);
   if (isFaulty(a) || isFaulty(b) || (!isSolid(a) && !isSolid(b)))
     contacts.push_back(contactWithoutDepth(a, b));
   else if (isSolid(a))
-    contacts = contactsOfSolid(a, b, most, scratch);
+    contacts = contactsOfSolid(a, b, most, scratch, are_all_here);
   else
   {
-    contacts = contactsOfSolid(b, a, most, scratch);
+    contacts = contactsOfSolid(b, a, most, scratch, are_all_here);
     turn(contacts);
   }
   std::stable_sort(contacts.begin(), contacts.end(),
                    [](const ShapeContact& first, const ShapeContact& second) { return first.depth > second.depth; });
   if (contacts.size() > max_contacts)
     contacts.resize(max_contacts);
+  if (are_all != nullptr)
+    *are_all = are_all_here;
   return contacts;
 }
 

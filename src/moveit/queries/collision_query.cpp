@@ -83,8 +83,11 @@ void CollisionQuery::addContact(const ShapeInstance& a, const ShapeInstance& b, 
 bool CollisionQuery::isRefused(const ShapeInstance& a, const ShapeInstance& b)
 {
   const collision_detection::DecideContactFn decider = filter_.decider(a.body, b.body);
+  bool are_all = true;
+  const std::vector<core::ShapeContact> contacts =
+      contactsOf(a, b, std::numeric_limits<std::size_t>::max(), scratch_, &are_all);
   bool is_refused = false;
-  for (const core::ShapeContact& found : contactsOf(a, b, std::numeric_limits<std::size_t>::max(), scratch_))
+  for (const core::ShapeContact& found : contacts)
   {
     Contact contact = contactBetween(a, b, found);
     if (decider && decider(contact))
@@ -94,7 +97,12 @@ bool CollisionQuery::isRefused(const ShapeInstance& a, const ShapeInstance& b)
       break;
     addContact(a, b, found);
   }
-  return is_refused;
+  if (is_refused || are_all)
+    return is_refused;
+  // The decider might refuse one of the contacts that were not computed.
+  if (wantedContacts(a, b) > 0)
+    addContact(a, b, contacts.front());
+  return true;
 }
 
 /// The place of the pair, as far as the bounds of both instances tell it. FCL counts each pair of triangles instead.

@@ -227,15 +227,11 @@ SceneChange changeOf(const PlanningScene& scene, std::uint32_t components)
   if (wanted(Components::OBJECT_COLORS))
     change.colors = full.colors;
   if (wanted(Components::LINK_PADDING_AND_SCALING))
-    for (const Link& link : robot.links())
-    {
-      const double padding = full.link_padding.at(link.name);
-      const double scale = full.link_scale.at(link.name);
-      if (link.shapes.empty() && padding == 0.0 && scale == 1.0)
-        continue;
-      change.link_padding[link.name] = padding;
-      change.link_scale[link.name] = scale;
-    }
+  {
+    // Also of links without shapes, which may carry objects: the receiver may have other defaults.
+    change.link_padding = full.link_padding;
+    change.link_scale = full.link_scale;
+  }
   for (const auto& [id, rule] : full.solids)
     if (wanted(robot.linkIndex(id) >= 0 || !scene.findAttached(id) ? Components::WORLD_OBJECT_GEOMETRY
                                                                    : Components::ROBOT_STATE_ATTACHED_OBJECTS))

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "scene/message_values.h"
 
@@ -52,35 +53,59 @@ AssumedBase BaseFromTf::at(std::int64_t stamp)
 {
   if (joint_ == nullptr)
     return {};
-  if (stamp != 0)
-    try
-    {
-      return valuesAt(*joint_, find_({root_, stamp}).pose);
-    }
-    catch (const tf2::TransformException&)
-    {
-      // The newest pose is the nearest one, as for joint values.
-    }
-  const std::string frames = "from '" + robot_->planningFrame() + "' to '" + root_ + "'";
+  return stamp == 0 ? newest() : thatOf(stamp);
+}
+
+std::string BaseFromTf::frames() const
+{
+  return "from '" + robot_->planningFrame() + "' to '" + root_ + "'";
+}
+
+AssumedBase BaseFromTf::thatOf(std::int64_t stamp)
+{
+  try
+  {
+    return valuesAt(*joint_, find_({root_, stamp}).pose);
+  }
+  catch (const tf2::TransformException&)
+  {
+  }
+  std::int64_t newest = 0;
+  try
+  {
+    newest = find_({root_, 0}).stamp;
+  }
+  catch (const tf2::TransformException&)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!newest_)
+      return {{}, "tf has no transform " + frames()};
+  }
+  if (newest > stamp)
+    throw Error("the robot's pose of " + numberText(1e-9 * static_cast<double>(newest - stamp)) +
+                " s before the newest transform " + frames() + " is not available on tf");
+  throw NotKnownYet(
+      "tf has no transform " + frames() + " of the time of the measurement" +
+      (newest == 0 ? "" : "; its newest is " + numberText(1e-9 * static_cast<double>(stamp - newest)) + " s older"));
+}
+
+AssumedBase BaseFromTf::newest()
+{
   try
   {
     const FrameLookup::Found found = find_({root_, 0});
-    if (const double before = 1e-9 * static_cast<double>(found.stamp - stamp);
-        stamp != 0 && found.stamp != 0 && before > kOldAge)
-      throw Error("the robot's pose of " + std::to_string(before) + " s before the newest transform " + frames +
-                  " is not available on tf");
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (!newest_)
         ROS_INFO_STREAM("no state has set the virtual joint '" << joint_->name << "', so tf sets it: the transform "
-                                                               << frames);
+                                                               << frames());
       newest_ = found;
     }
     AssumedBase base = valuesAt(*joint_, found.pose);
     const double age = 1e-9 * static_cast<double>(now_() - found.stamp);
     if (found.stamp != 0 && age > kOldAge)
       base.warning += (base.warning.empty() ? "" : "; ") +
-                      std::string("the robot's pose comes from tf, and its newest transform ") + frames + " is " +
+                      std::string("the robot's pose comes from tf, and its newest transform ") + frames() + " is " +
                       std::to_string(age) + " s old";
     return base;
   }
@@ -88,10 +113,10 @@ AssumedBase BaseFromTf::at(std::int64_t stamp)
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!newest_)
-      return {{}, "tf has no transform " + frames};
+      return {{}, "tf has no transform " + frames()};
     AssumedBase base = valuesAt(*joint_, newest_->pose);
-    base.warning =
-        "the robot's pose comes from tf, which has lost the transform " + frames + "; the last one that it had is used";
+    base.warning = "the robot's pose comes from tf, which has lost the transform " + frames() +
+                   "; the last one that it had is used";
     return base;
   }
 }

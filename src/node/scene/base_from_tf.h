@@ -24,13 +24,16 @@ class BaseFromTf
   BaseFromTf(const FrameLookup& frames, std::shared_ptr<const RobotModel> robot);
   BaseFromTf(Find find, Now now, std::shared_ptr<const RobotModel> robot);
 
-  /// The pose at a time in nanoseconds; the newest pose if `stamp` is 0 or tf has no pose for it. If tf no longer knows
-  /// the root link, it is the last pose that tf had, with a warning. No values: tf never had a pose. Throws Error if
-  /// tf has no pose for `stamp` and its newest one is more than 1 s younger, as for a cloud that is older than tf's
-  /// memory.
+  /// The pose at a time in nanoseconds, or the newest pose for 0. If tf no longer knows the root link, the newest pose
+  /// is the last one that tf had, with a warning. No values: tf never had a pose. For another time than 0, throws
+  /// NotKnownYet if tf has no pose of this time yet, and Error if it only has later ones.
   AssumedBase at(std::int64_t stamp);
 
  private:
+  AssumedBase thatOf(std::int64_t stamp);
+  AssumedBase newest();
+  std::string frames() const;  // for messages
+
   const Find find_;
   const Now now_;
   const std::shared_ptr<const RobotModel> robot_;

@@ -5,6 +5,7 @@
 #include <sensor_msgs/PointCloud2.h>
 
 #include "gpu_planning_scene/point_cloud.h"
+#include "node/sensors/measured_at.h"
 #include "service/memory_guard.h"
 #include "service/scene_store.h"
 
@@ -14,15 +15,19 @@ namespace gpu_planning_scene::core
 class CloudTopic
 {
  public:
-  CloudTopic(SceneStore& store, SceneStore::Lookup lookup, const MemoryGuard& memory, const PointCloudOptions& options,
-             std::string id);
+  /// `find_frame`: see Sensors. `frame_timeout`: seconds that a cloud waits for its frame and for the robot's pose.
+  CloudTopic(SceneStore& store, SceneStore::Lookup find_frame, double frame_timeout, const MemoryGuard& memory,
+             const PointCloudOptions& options, std::string id);
 
-  /// If it throws Error, nothing has changed.
+  /// It may wait. If it throws Error, nothing has changed.
   void take(const sensor_msgs::PointCloud2& message);
 
  private:
+  MeasuredAt waitFor(const std_msgs::Header& header) const;
+
   SceneStore& store_;
-  const SceneStore::Lookup lookup_;
+  const SceneStore::Lookup find_frame_;
+  const double frame_timeout_;
   const MemoryGuard& memory_;
   const std::string id_;
   PointCloudFilter filter_;

@@ -40,10 +40,10 @@ SensedMap::SensedMap(SceneStore& store, const OccupancyMapOptions& options, doub
   store_.reserveOctomap();
 }
 
-void SensedMap::add(const Measurement& measurement, const SensorView& view, const Snapshot& now,
-                    const std::vector<double>& state)
+void SensedMap::add(const Measurement& measurement, const SensorView& view, const std::vector<double>& state)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
+  const Snapshot now = store_.snapshot();
   followObjects(*now.scene, now.state);
   const std::size_t without_room = std::visit(
       [&](const auto& measured) { return map_.add(measured, view, *now.scene, state.data(), excluded_); }, measurement);
@@ -101,8 +101,10 @@ std::uint64_t SensedMap::publish()
 {
   const Snapshot now = store_.snapshot();
   std::vector<PlacedShape> cubes = map_.cubes(*now.scene, now.state.data());
-  hides_voxels_ = cubes.size() < map_.size();
+  const bool hides_voxels = cubes.size() < map_.size();
+  hides_voxels_ = true;  // until the scene has the voxels: an error must not end the tries
   replaceObject(store_, kOctomapId, std::move(cubes));
+  hides_voxels_ = hides_voxels;
   return store_.snapshot().scene->revision;
 }
 }  // namespace gpu_planning_scene::core

@@ -22,11 +22,10 @@ class SensedMap
   /// must outlive this object. Throws Error if the scene already has an octomap, or if an option is not valid.
   SensedMap(SceneStore& store, const OccupancyMapOptions& options, double padding);
 
-  /// Puts a measurement into the map, and the map into the scene. `now`: the newest scene. `state`: one value per
-  /// variable, of the time of the measurement. Throws the errors of OccupancyMap::add and SceneStore::sense. Throws
+  /// Puts a measurement into the map, and the map into the scene. `state`: one value per variable, of the time of the
+  /// measurement. Throws the errors of OccupancyMap::add and SceneStore::sense. Throws
   /// Error if some voxels found no room; the others are in the scene then.
-  void add(const Measurement& measurement, const SensorView& view, const Snapshot& now,
-           const std::vector<double>& state);
+  void add(const Measurement& measurement, const SensorView& view, const std::vector<double>& state);
 
   /// From now on, these objects are left out of the map, and no others. Their voxels are removed. Returns the revision
   /// of the scene without them. Throws Error if the scene has no such object.

@@ -13,13 +13,20 @@ bool isSameCube(const PlacedShape& a, const PlacedShape& b)
 {
   return a.pose.matrix() == b.pose.matrix() && std::get<Box>(a.shape).size == std::get<Box>(b.shape).size;
 }
+
+/// Whether the object has these cubes, and no client has moved it.
+bool isThere(const WorldObject& object, const std::vector<PlacedShape>& cubes)
+{
+  return object.pose.matrix() == Eigen::Isometry3d::Identity().matrix() &&
+         std::equal(object.shapes.begin(), object.shapes.end(), cubes.begin(), cubes.end(), isSameCube);
+}
 }  // namespace
 
 void replaceObject(SceneStore& store, const std::string& id, std::vector<PlacedShape> cubes)
 {
   const std::shared_ptr<const PlanningScene> scene = store.snapshot().scene;
   const WorldObject* old = scene->findObject(id);
-  if (old ? std::equal(old->shapes.begin(), old->shapes.end(), cubes.begin(), cubes.end(), isSameCube) : cubes.empty())
+  if (old ? isThere(*old, cubes) : cubes.empty())
     return;
   ObjectChange change;
   change.id = id;

@@ -7,6 +7,7 @@
 #include <ros/names.h>
 
 #include "base/text/name_list.h"
+#include "base/text/nearest_key.h"
 #include "gpu_planning_scene/error.h"
 #include "node/parameters/parameter_values.h"
 
@@ -78,7 +79,11 @@ class Entry
       if (contains(kIgnoredKeys, member.first))
         ignored.push_back(member.first);
       else if (!contains(kSensorKeys, member.first))
-        throw Error(where_ + " has the unknown key '" + member.first + "'; there are: " + nameList(kSensorKeys));
+      {
+        const std::string meant = didYouMean(member.first, kSensorKeys);
+        throw Error(where_ + " has the unknown key '" + member.first + "'" +
+                    (meant.empty() ? "; there are: " + nameList(kSensorKeys) : meant));
+      }
     return ignored;
   }
 

@@ -16,6 +16,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr double kLargestAdvance = 1.0;               // seconds of a stamp before the node's clock
+constexpr double kLargestAge = 2.0;                   // seconds of a stamp behind it; as between two sensors
 constexpr std::chrono::milliseconds kNextLookup{10};  // after which a missing frame is looked up again
 constexpr std::chrono::milliseconds kRepublish{100};
 
@@ -190,8 +191,12 @@ void Sensors::use(const Sensor& sensor)
   }
   if (options.sendsImages() && !camera)
     throw Error("there is no message on " + options.camera_info_topic + " yet");
-  if (const double age = ageOf(header); age < -kLargestAdvance)
+  if (const double age = header.stamp.isZero() ? 0.0 : ageOf(header); age < -kLargestAdvance)
     throw Error("the stamp is " + numberText(-age) + " s in the future; synchronise the clocks");
+  else if (age > kLargestAge)
+    throw Error("the stamp is " + numberText(age) +
+                " s old; synchronise the clocks, and play recorded data with the "
+                "simulated clock (rosbag play --clock, use_sim_time)");
   const MeasuredAt measured = measuredAt(header, store_, find_frame_);
   SensorView view;
   view.sensor = measured.sensor;
@@ -203,9 +208,9 @@ void Sensors::use(const Sensor& sensor)
 
   const auto* image = std::get_if<sensor_msgs::Image>(&message);
   if (image != nullptr)
-    map_.add(depthImageOf(*image, *camera), view, measured.now, measured.state);
+    map_.add(depthImageOf(*image, *camera), view, measured.state);
   else
-    map_.add(pointsOf(std::get<sensor_msgs::PointCloud2>(message), options.step), view, measured.now, measured.state);
+    map_.add(pointsOf(std::get<sensor_msgs::PointCloud2>(message), options.step), view, measured.state);
 }
 
 ExcludeFromSensors::Response Sensors::exclude(const ExcludeFromSensors::Request& request)

@@ -81,6 +81,7 @@ void TrajectoryWatcher::stop()
     state.collision_in = kInfinity;
     for (const Watched& each : watched_)
       state.ended.push_back(each.id);
+    cancelGoals(state);
     publisher_.publish(state);
     watched_.clear();
   }
@@ -166,6 +167,9 @@ void TrajectoryWatcher::run()
       contact_due = Clock::now() + period;
     WatchState state = look(with_contact);
     cancelGoals(state);
+    for (Watched& each : watched_)
+      if (each.start.isZero())
+        each.start = ros::Time::now();
     state.latency = secondsSince(cause);
     publisher_.publish(state);
     for (Order& order : orders)
@@ -280,7 +284,7 @@ void TrajectoryWatcher::cancelGoals(const WatchState& state)
     if (!isFault(state))
       each.blocked_since = ros::Time();
     else if (each.blocked_since.isZero())
-      each.blocked_since = state.header.stamp;
+      each.blocked_since = ros::Time::now();  // not the beginning of the check: a goal may have come since then
     if (!isFault(state) || !each.cancel)
       continue;
     actionlib_msgs::GoalID goals;  // without an id: all goals up to the stamp

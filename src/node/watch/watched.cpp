@@ -76,7 +76,7 @@ void addCurrentState(const Snapshot& scene, const ros::Time& now, Watched& watch
   const std::vector<bool> known = scene.partialState().known;
   const bool are_known = std::all_of(trajectory.columns.begin(), trajectory.columns.end(),
                                      [&](int column) { return known[static_cast<std::size_t>(column)]; });
-  if (!are_known || std::abs((watched.start - now).toSec()) > kAtRequest)
+  if (!are_known || (!watched.start.isZero() && std::abs((watched.start - now).toSec()) > kAtRequest))
     throw Error("the first point is at " + std::to_string(first) +
                 " s, and the robot's state at the start is not "
                 "known; give a first point at 0 s");
@@ -113,7 +113,7 @@ Watched watchedOf(const WatchTrajectory::Request& request, const Snapshot& scene
   watched.max_deviation = request.max_deviation;
   const std_msgs::Header& header = request.joint_trajectory.points.empty() ? request.multi_dof_joint_trajectory.header
                                                                            : request.joint_trajectory.header;
-  watched.start = header.stamp.isZero() ? now : header.stamp;
+  watched.start = header.stamp;
   watched.looked_at = now;
   WatchedTrajectory& trajectory = watched.trajectory;
   trajectory.columns = requested.columns;
@@ -148,7 +148,7 @@ void findPlace(const Snapshot& scene, const ros::Time& now, Watched& watched)
     throw Error("'" + watched.id + "': joint_states has brought no values of all its joints in the last " +
                 std::to_string(kFresh).substr(0, 4) + " s");
 
-  const double by_clock = (now - watched.start).toSec();
+  const double by_clock = watched.start.isZero() ? 0.0 : (now - watched.start).toSec();
   const double end = trajectory.rows.seconds.back();
   const std::vector<double> values = valuesOf(trajectory, scene.state);
   if (watched.follows)

@@ -18,12 +18,12 @@ struct Watched
 {
   std::string id;
   WatchedTrajectory trajectory;  ///< its times are seconds from `start`
-  ros::Time start;
-  bool follows = false;        ///< the robot's place comes from measured values, not from the clock
-  double max_deviation = 0.0;  ///< radians or metres; 0: no limit
-  ros::Publisher cancel;       ///< of actionlib_msgs/GoalID; invalid: nothing is cancelled
-  ros::Time blocked_since;     ///< of the goals that are cancelled; 0: the verdict was FREE at the last check
-  double time = 0.0;           ///< seconds: the robot's place on the trajectory
+  ros::Time start;               ///< 0: the first verdict, which is not there yet
+  bool follows = false;          ///< the robot's place comes from measured values, not from the clock
+  double max_deviation = 0.0;    ///< radians or metres; 0: no limit
+  ros::Publisher cancel;         ///< of actionlib_msgs/GoalID; invalid: nothing is cancelled
+  ros::Time blocked_since;       ///< of the goals that are cancelled; 0: the verdict was FREE at the last check
+  double time = 0.0;             ///< seconds: the robot's place on the trajectory
   /// Of the robot from its place; NaN: its values are not measured.
   double deviation = std::numeric_limits<double>::quiet_NaN();
   double age = 0.0;  ///< seconds: of the values from which the place comes; 0: it comes from the clock

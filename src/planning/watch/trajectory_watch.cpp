@@ -16,6 +16,9 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+// Radians or metres: a robot this near to a turn of its trajectory may be past it.
+constexpr double kCutTurn = 0.01;
+
 std::size_t widthOf(const WatchedTrajectory& trajectory)
 {
   return trajectory.columns.size();
@@ -83,6 +86,24 @@ Place placeOf(const std::vector<double>& seconds, double time)
   const auto part = static_cast<std::size_t>(after - seconds.begin()) - 1;
   return {part, std::clamp((time - seconds[part]) / (seconds[part + 1] - seconds[part]), 0.0, 1.0)};
 }
+
+/// Whether a robot that is not quite at `end` of its part, from `place` on, is on the next part already: a controller
+/// cuts turns short. `values`: of the robot.
+bool hasTurned(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
+               double place, double end)
+{
+  const std::vector<double>& seconds = trajectory.rows.seconds;
+  const auto after = std::upper_bound(seconds.begin(), seconds.end(), end);
+  const std::vector<double> corner = rowAt(robot, trajectory, end);
+  if (after == seconds.end() || deviationAt(robot, trajectory, corner, place) > kCutTurn)
+    return false;
+  const Differences difference(robot, trajectory);
+  const std::vector<double> along = difference(corner, rowAt(robot, trajectory, *after));
+  const double squared = product(along, along);
+  const double share = squared > 0.0 ? product(difference(corner, values), along) / squared : 0.0;
+  return deviationAt(robot, trajectory, values, end + std::clamp(share, 0.0, 1.0) * (*after - end)) <
+         deviationAt(robot, trajectory, values, place);
+}
 }  // namespace
 
 void validateTrajectory(const WatchedTrajectory& trajectory)
@@ -146,9 +167,10 @@ Progress progressFrom(const RobotModel& robot, const WatchedTrajectory& trajecto
     const std::vector<double> along = difference(row, end);
     const double squared = product(along, along);
     const double share = squared > 0.0 ? product(difference(row, values), along) / squared : 1.0;
-    if (share < 1.0)
+    const double place = time + std::clamp(share, 0.0, 1.0) * (*next - time);
+    if (share < 1.0 && !hasTurned(robot, trajectory, values, place, *next))
     {
-      time += std::max(share, 0.0) * (*next - time);
+      time = place;
       break;
     }
     time = *next;

@@ -171,11 +171,10 @@ Eigen::Isometry3d SceneChanger::placed(const Eigen::Isometry3d& pose, const Stam
   };
   const PlanningScene& scene = result_.scene;
   const auto known = findFrame({*scene.robot, scene.fixed_frames, find_object}, frame.name, knownState());
-  if (known)
-    return *known * pose;
-  const Eigen::Isometry3d external = lookup_(frame);
-  requirePose(external, "frame '" + frame.name + "'");
-  return external * pose;
+  const Eigen::Isometry3d found = known ? *known : lookup_(frame);
+  requirePose(found, "frame '" + frame.name + "'");
+  requirePose(found * pose, "a place in frame '" + frame.name + "'");
+  return found * pose;
 }
 
 bool SceneChanger::isPlanningFrame(const std::string& name) const

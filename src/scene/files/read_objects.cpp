@@ -3,6 +3,7 @@
 #include <set>
 
 #include "gpu_planning_scene/octomap.h"
+#include "model/rigid_pose.h"
 #include "scene/files/scene_keys.h"
 #include "scene/files/scene_reader.h"
 #include "scene/missing_link.h"
@@ -161,6 +162,8 @@ void readObjects(const YamlValue& scene, SceneReader& reader, PlanningScene& res
   {
     WorldObject object = readObject(value, reader);
     object.pose = readFrame(value.find("header"), reader) * object.pose;
+    if (!isRigid(object.pose))
+      value.fail("object '" + object.id + "' is farther than 1000 km away");
     require_new(object.id, value);
     result.objects.push_back(std::move(object));
   }

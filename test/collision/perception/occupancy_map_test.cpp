@@ -270,6 +270,30 @@ TEST_F(OccupancyMapOfACamera, LosesAllVoxelsOfAThingThatLeavesTheImage)
   }
 }
 
+TEST_F(OccupancyMapOfACamera, KeepsAVoxelThatItOnceSawWholeWhenItSeesBehindAPartOfIt)
+{
+  OccupancyMap map(options_);
+  see(map, 4.05F, 2.05F);
+  // The voxel is at the right border of the image now, its centre still inside. It may hold a wire that is outside.
+  const double turned = std::atan2(0.05, 2.05) + std::atan2(62.5 - 31.5, 60.0);
+  view_.sensor = cameraPose({0.0, 0.0, 0.0}, {std::cos(turned), std::sin(turned), 0.0});
+  for (int i = 0; i < 5; ++i)
+    see(map, 4.05F, 4.05F);
+  EXPECT_TRUE(isOccupied(map, {2.05, 0.05, 0.05}));
+  view_.sensor = cameraPose({0.0, 0.0, 0.0}, {1.0, 0.0, 0.0});
+  see(map, 4.05F, 4.05F);
+  EXPECT_FALSE(isOccupied(map, {2.05, 0.05, 0.05})) << "seen whole again";
+}
+
+TEST_F(OccupancyMapOfACamera, TakesAnIsolatedPointOfACloudWhoseVoxelIsSeenThroughAnotherFace)
+{
+  OccupancyMap map(options_);
+  view_.sensor = Isometry3d(Eigen::Translation3d(0.02, 0.0, 0.0));
+  // The point is seen through the face in the direction of x, and the centre of its voxel through that of y.
+  map.add(std::vector<Vector3f>{{1.07F, 1.06F, 0.05F}}, view_, scene_, state_.data());
+  EXPECT_TRUE(isOccupied(map, {1.05, 1.05, 0.05}));
+}
+
 TEST_F(OccupancyMapOfACamera, SeesAsFarAsItsRange)
 {
   OccupancyMap map(options_);
@@ -385,6 +409,18 @@ TEST_F(OccupancyMapOfACamera, TakesTheNearestVoxelsWhenThereIsNoRoomForAll)
   EXPECT_LT(before, 700u);
   see(map, 20.0F, 20.0F);
   EXPECT_EQ(0u, map.size()) << "there is room again";
+}
+
+TEST_F(OccupancyMapOfACamera, AFullMapGivesFarVoxelsUpForANearObstacle)
+{
+  OccupancyMap whole(options_);
+  see(whole, 3.05F, 3.05F);
+  options_.max_voxels = whole.size();
+  OccupancyMap map(options_);
+  EXPECT_EQ(0u, see(map, 3.05F, 3.05F));
+  EXPECT_GT(see(map, 3.05F, 1.05F), 0u);
+  EXPECT_TRUE(isOccupied(map, {1.05, 0.05, 0.05}));
+  EXPECT_EQ(options_.max_voxels, map.size());
 }
 
 TEST_F(OccupancyMapOfACamera, RefusesWrongArguments)

@@ -155,6 +155,22 @@ TEST(ClientOfFakes, AnAnswerForAnotherRevisionIsNone)
       response.message);
 }
 
+TEST(ClientOfFakes, ANodeThatLagsBehindIsNotAskedInPlaceOfALostLeader)
+{
+  auto leader = std::make_unique<FakeNode>("/leader", std::vector<std::uint8_t>{AnswerStatus::OK}, 8, 8);
+  const FakeNode replica("/replica", {AnswerStatus::OK}, 7, 7);
+  ShardedChecker checker({"/leader", "/replica"}, withPatience(0.2));
+  EXPECT_EQ(8U, checker.check(FakeNode::requestOf(1)).scene_revision);
+  leader.reset();
+  const CheckStates::Response response = checker.check(FakeNode::requestOf(1));
+  EXPECT_FALSE(response.success);
+  EXPECT_NE(std::string::npos,
+            response.message.find("/replica: its scene is missing: it has revision 7, but revision 8 was there before"))
+      << response.message;
+  leader = std::make_unique<FakeNode>("/leader", std::vector<std::uint8_t>{AnswerStatus::OK}, 1, 1);
+  EXPECT_TRUE(checker.check(FakeNode::requestOf(1)).success) << "a leader that starts again begins with revision 1";
+}
+
 TEST(ClientOfFakes, ANodeOfAnotherVersionIsNamedAsTheReason)
 {
   // The type of a service of another version has another checksum. Here it is another service.

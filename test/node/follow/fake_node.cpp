@@ -4,16 +4,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-bool giveScene(GetPlanningScene::Request& /*request*/, GetPlanningScene::Response& response)
-{
-  response.success = 1;
-  response.status = AnswerStatus::OK;
-  response.scene.scene_revision = FakeNode::kRevision;
-  response.scene.robot_state.joint_state.name = {"joint"};
-  response.scene.robot_state.joint_state.position = {0.0};
-  return true;
-}
-
 bool giveReport(GetReport::Request& /*request*/, GetReport::Response& response)
 {
   response.success = 1;
@@ -24,10 +14,21 @@ bool giveReport(GetReport::Request& /*request*/, GetReport::Response& response)
 }
 }  // namespace
 
-FakeNode::FakeNode(const std::string& name, std::vector<std::uint8_t> statuses, std::uint64_t answered_revision)
+FakeNode::FakeNode(const std::string& name, std::vector<std::uint8_t> statuses, std::uint64_t answered_revision,
+                   std::uint64_t revision)
   : statuses_(std::move(statuses)), answered_revision_(answered_revision)
 {
-  services_.push_back(node_.advertiseService(name + "/get_planning_scene", &giveScene));
+  const boost::function<bool(GetPlanningScene::Request&, GetPlanningScene::Response&)> give_scene =
+      [revision](GetPlanningScene::Request& /*request*/, GetPlanningScene::Response& response)
+  {
+    response.success = 1;
+    response.status = AnswerStatus::OK;
+    response.scene.scene_revision = revision;
+    response.scene.robot_state.joint_state.name = {"joint"};
+    response.scene.robot_state.joint_state.position = {0.0};
+    return true;
+  };
+  services_.push_back(node_.advertiseService(name + "/get_planning_scene", give_scene));
   services_.push_back(node_.advertiseService(name + "/get_report", &giveReport));
   services_.push_back(node_.advertiseService(name + "/check_states", &FakeNode::check, this));
 }

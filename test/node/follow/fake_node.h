@@ -14,10 +14,12 @@ namespace gpu_planning_scene::core
 class FakeNode
 {
  public:
-  static constexpr std::uint64_t kRevision = 7;  // of its scene
+  static constexpr std::uint64_t kRevision = 7;
 
   /// `statuses`: of the answers of ~check_states, one call after the other. The last one is that of all further calls.
-  FakeNode(const std::string& name, std::vector<std::uint8_t> statuses, std::uint64_t answered_revision = kRevision);
+  /// `revision`: of its scene.
+  FakeNode(const std::string& name, std::vector<std::uint8_t> statuses, std::uint64_t answered_revision = kRevision,
+           std::uint64_t revision = kRevision);
 
   /// The calls of ~check_states.
   std::size_t calls() const;

@@ -140,6 +140,14 @@ TEST_F(Parameters, APointCloudIsAnObstacleWithoutTheRobotsOwnPoints)
   EXPECT_TRUE(isFree());
   EXPECT_FALSE(isFreeAt(far));
 
+  PlanningSceneMessage moved = diffScene();
+  moved.world.collision_objects = {objectOperation("cloud", CollisionObject::MOVE)};
+  moved.world.collision_objects[0].pose = poseAt(Eigen::Vector3d(0.0, 1.0, 0.0));
+  apply(moved);
+  EXPECT_TRUE(isFreeAt(far));
+  publisher.publish(cloud({on_the_cart, {far, 0.0F, 0.0F}}));
+  EXPECT_TRUE(becomes([far] { return !isFreeAt(far); })) << "an equal cloud brings the moved object back";
+
   publisher.publish(cloud({on_the_cart}));
   for (int i = 0; i < 100 && !scene().world.collision_objects.empty(); ++i)
     ros::WallDuration(0.1).sleep();

@@ -149,10 +149,17 @@ TEST_F(JointStates, UpdateWhatTheyNameOfTheRobot)
 TEST_F(JointStates, AWrongMessageChangesNothing)
 {
   take(jointState({"slide", "turn"}, {0.25, 0.5}));
-  EXPECT_THROW(take(jointState({"slide", "turn"}, {1.0, std::nan("")})), Error);
   EXPECT_THROW(take(jointState({"slide", "turn"}, {1.0})), Error);
   EXPECT_EQ((std::vector<double>{0.25, 0.5}), store.snapshot().state);
   take(jointState({"slide", "wheel"}, {1.0, std::nan("")}));  // the wrong value belongs to another robot
+  EXPECT_EQ(1.0, store.snapshot().state[0]);
+}
+
+TEST_F(JointStates, AValueThatIsNotFiniteMakesItsJointUnknown)
+{
+  take(jointState({"slide", "turn"}, {0.25, 0.5}));
+  EXPECT_THROW(take(jointState({"slide", "turn"}, {1.0, std::nan("")})), Error);
+  EXPECT_EQ((std::vector<bool>{true, false}), store.snapshot().known);
   EXPECT_EQ(1.0, store.snapshot().state[0]);
 }
 

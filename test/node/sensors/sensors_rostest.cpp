@@ -218,6 +218,15 @@ TEST_F(SensorsOfANode, ABoxBeforeTheCameraBlocksTheRobotUntilItIsGone)
   }
 }
 
+TEST_F(SensorsOfANode, AnImageThatIsOlderThanTwoSecondsIsRejected)
+{
+  const std::string topic = "/camera/depth/image_rect";
+  ASSERT_TRUE(becomes([&] { return !statusOf(topic, "rejected").empty(); }));
+  const std::string before = statusOf(topic, "rejected");
+  stamp_ = ros::Time::now() - ros::Duration(3.0);
+  EXPECT_TRUE(seesUntil([&] { return statusOf(topic, "rejected") != before; }));
+}
+
 TEST_F(SensorsOfANode, ASensorThatStopsIsInTheLogOnce)
 {
   int lines = 0;
@@ -389,7 +398,7 @@ TEST_F(SensorsOfANode, NoStampEndsTheNode)
   }
   EXPECT_TRUE(becomes(
       [&] {
-        return std::stoi(statusOf(topic, "rejected")) == before + 1 && std::stoi(statusOf(topic, "used")) >= used + 2;
+        return std::stoi(statusOf(topic, "rejected")) == before + 2 && std::stoi(statusOf(topic, "used")) >= used + 1;
       }))
       << statusOf(topic, "rejected") << " " << statusOf(topic, "used");
   EXPECT_TRUE(isFree());

@@ -1,6 +1,7 @@
 // ~watch_trajectory and ~watch: the rest of a trajectory is checked while the scene changes, and a simulated robot
 // stops before it hits a box that moves into its way.
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <mutex>
@@ -159,6 +160,13 @@ class Watch : public RunningNode
     const std::lock_guard<std::mutex> lock(mutex_);
     return states_.empty() ? WatchState() : states_.back();
   }
+  WatchState firstWith(std::uint8_t verdict)
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found =
+        std::find_if(states_.begin(), states_.end(), [&](const WatchState& state) { return state.verdict == verdict; });
+    return found == states_.end() ? WatchState() : *found;
+  }
   /// Waits for a message with this verdict.
   bool comes(std::uint8_t verdict)
   {
@@ -217,6 +225,8 @@ TEST_F(Watch, TheRobotStopsBeforeABoxThatMovesIntoItsWay)
   EXPECT_EQ(last().contacts[0].contact_body_2, "box");
   EXPECT_GT(last().collision_in, 0.5) << "the robot stands, so the rest is still to come";
   EXPECT_GE(simulated.cancelledUntil(), before);
+  EXPECT_GT(simulated.cancelledUntil(), firstWith(WatchState::COLLISION).header.stamp.toSec())
+      << "a goal that is sent during the check is cancelled too";
   EXPECT_LT(simulated.cancelledUntil(), before + 1.0) << "a goal that is sent now is not cancelled";
   for (int hundredths = 0; hundredths <= 100.0 * simulated.time(); ++hundredths)
     ASSERT_EQ(check(simulated.stateAt(0.01 * hundredths)).valid.at(0), 1) << 0.01 * hundredths;
@@ -270,6 +280,59 @@ TEST_F(Watch, ANodeThatEndsSaysThatItWatchesNothing)
   EXPECT_EQ(watched.response.state.verdict, WatchState::UNKNOWN) << "the node does not know the other joints";
   ending.interrupt();
   EXPECT_TRUE(becomes([&] { return has_said.load(); }));
+}
+
+TEST_F(Watch, ANodeThatEndsCancelsTheGoalsThatItWatches)
+{
+  const ChildNode ending("ending_beside_a_controller", {"_device:=cpu"});
+  ApplyPlanningScene start;
+  start.request.scene = diffScene();
+  start.request.scene.robot_state = stateMessage(free_state);
+  ASSERT_TRUE(callPersistently(ending.service("apply_planning_scene"), start));
+  std::atomic<int> cancelled{0};
+  const auto subscriber = ros::NodeHandle().subscribe<actionlib_msgs::GoalID>(
+      "/controller/cancel", 10, [&](const actionlib_msgs::GoalIDConstPtr&) { ++cancelled; });
+  WatchTrajectory watched;
+  watched.request = trajectory("turn");
+  watched.request.cancel_action = "/controller";
+  ASSERT_TRUE(callPersistently(ending.service("watch_trajectory"), watched));
+  EXPECT_EQ(watched.response.state.verdict, WatchState::FREE) << watched.response.message;
+  ros::WallDuration(0.3).sleep();
+  EXPECT_EQ(0, cancelled);
+  ending.interrupt();
+  EXPECT_TRUE(becomes([&] { return cancelled > 0; }));
+}
+
+TEST_F(Watch, ATrajectoryWithoutAStampBeginsWithTheFirstVerdict)
+{
+  std::unique_ptr<SimulatedRobot> late;
+  std::thread starter(
+      [&late]
+      {
+        ros::WallDuration(0.6).sleep();
+        late = std::make_unique<SimulatedRobot>(names(), free_state);
+      });
+  WatchTrajectory::Request request = trajectory("turn");
+  request.cancel_action = "/simulation";  // the node waits for this server
+  const WatchTrajectory::Response response = watch(request);
+  starter.join();
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_NEAR(response.state.free_for, kSeconds, 0.1);
+}
+
+TEST_F(Watch, AJointWhoseValuesHaveEndedMakesTheRestUnknown)
+{
+  const ros::Publisher states = ros::NodeHandle().advertise<sensor_msgs::JointState>("/joint_states", 1);
+  ASSERT_TRUE(becomes([&] { return states.getNumSubscribers() > 0; }));
+  sensor_msgs::JointState message;
+  message.header.stamp = ros::Time::now();
+  message.name = {names()[1]};
+  message.position = {free_state[1]};
+  states.publish(message);
+  ASSERT_TRUE(watch(trajectory("turn")).success);
+  EXPECT_TRUE(comes(WatchState::FREE)) << last().message;
+  EXPECT_TRUE(comes(WatchState::UNKNOWN));
+  EXPECT_NE(std::string::npos, last().message.find("no value of '" + names()[1] + "'")) << last().message;
 }
 
 TEST_F(Watch, NothingIsCancelledUnlessTheNodeIsToldTo)

@@ -229,6 +229,14 @@ TEST(ProgressFrom, NeverSkipsAPartOfATrajectoryThatTurnsBack)
   expectProgress(progressOn(rows, -0.5, 1.0), 2.0, 0.5);
 }
 
+TEST(ProgressFrom, ATurningPointThatTheRobotDoesNotQuiteReachIsPassedOnTheWayBack)
+{
+  const TimedRows rows = {{0.0, 1.0, 2.0}, {0.0, 1.0, 0.0}};
+  expectProgress(progressOn(rows, 0.995, 0.9), 0.995, 0.0);
+  expectProgress(progressOn(rows, 0.95, 0.995), 1.05, 0.0);
+  expectProgress(progressOn(rows, 0.95, 0.98), 0.98, 0.03);  // too far from the turning point
+}
+
 TEST(ProgressFrom, ARobotThatStandsAtTheStartOfALoopStaysThere)
 {
   expectProgress(progressOn({{0.0, 1.0, 2.0, 3.0}, {0.0, 1.0, -1.0, 0.0}}, 1e-5, 0.0), 1e-5, 0.0);

@@ -2,6 +2,7 @@
 // constant plus the cosine and the sine of the joint value times constants (Rodrigues' formula), as in Kinematics.
 #pragma once
 
+#include "base/strict_arithmetic.h"
 #include "collision/cpu/lanes/lane_model.h"
 #include "collision/geometry/eight_floats.h"
 

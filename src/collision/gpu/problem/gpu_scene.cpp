@@ -166,7 +166,7 @@ void GpuScene::writeInstances(const CollisionProblem& problem)
       InstanceRecord record{};
       const GpuTrees::Tree& tree = trees_.tree(instance.tree);
       record.root = tree.root;
-      record.slack = sagitta > 0.0 ? std::nextafter(static_cast<float>(sagitta), 1.0F) : 0.0F;
+      record.slack = sagitta > 0.0 ? floatAbove(sagitta) : 0.0F;
       record.first_component = tree.first_component;
       record.component_count = tree.component_count;
       record.padding = static_cast<float>(instance.padding);
