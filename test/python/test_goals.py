@@ -98,6 +98,19 @@ class Lines(Case):
         self.assertNotEqual("", path.message)
         self.assert_one_line(gps.Error, "there is no waypoint", gps.follow_lines, checker, "arm", START, [])
 
+    def test_a_base_that_drives_only_along_its_heading_is_refused(self):
+        robot = gps.RobotModel.from_xml(
+            '<robot name="r"><link name="body"/></robot>',
+            '<robot name="r"><virtual_joint name="drive" type="planar" parent_frame="world" child_link="body"/>'
+            '<joint_property joint_name="drive" property_name="motion_model" value="diff_drive"/>'
+            '<group name="base"><joint name="drive"/></group></robot>')
+        checker = gps.StateChecker(gps.PlanningScene(robot), device="cpu")
+        beside = np.eye(4)
+        beside[1, 3] = 0.05
+        for call, goal in ((gps.follow_lines, [beside]), (gps.plan_motion, [0.0, 0.05, 0.0])):
+            self.assert_one_line(gps.Error, "^joint 'drive' of group 'base' cannot be planned for: it drives only along its "
+                                 "heading", call, checker, "base", np.zeros(3), goal)
+
 
 if __name__ == "__main__":
     unittest.main()

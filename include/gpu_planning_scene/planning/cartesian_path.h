@@ -55,10 +55,11 @@ struct CartesianPath
 
 /// Computes the path: inverse kinematics continued along the lines from the start, then a check of all its motions in
 /// one batch, by the motion rule. `scene`: that of the checker (StateChecker::setScene); this is not verified. If
-/// `stop` returns true, the path ends early, with a message. Throws Error for an unknown group, a link that the group
-/// does not move, a row of the wrong length, a start that is not finite or outside its limits, a waypoint that is not a
-/// rigid pose, no waypoint, lines of too many steps, and steps or bounds that are not above 0. Errors of MotionChecker
-/// pass through. Thread-safe if each call has a checker of its own.
+/// `stop` returns true, the path ends early, with a message. Throws Error for an unknown group, a group with a joint
+/// that drives only along its heading (Joint::diff_drive), a link that the group does not move, a row of the wrong
+/// length, a start that is not finite or outside its limits, a waypoint that is not a rigid pose, no waypoint, lines of
+/// too many steps, and steps or bounds that are not above 0. Errors of MotionChecker pass through. Thread-safe if each
+/// call has a checker of its own.
 CartesianPath followLines(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const CartesianQuery& query,
                           const std::function<bool()>& stop = {});

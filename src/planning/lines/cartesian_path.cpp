@@ -14,6 +14,7 @@
 #include "model/joint_limits.h"
 #include "model/rigid_pose.h"
 #include "planning/lines/straight_lines.h"
+#include "planning/space/group_space.h"
 #include "scene/frame.h"
 
 // Each row is the solution of inverse kinematics that is nearest to the row before it. A step is halved until the
@@ -53,6 +54,7 @@ void validate(const RobotModel& robot, const CartesianQuery& query)
     throw Error("the robot has no link " + std::to_string(query.link));
   if (query.waypoints.empty())
     throw Error("there is no waypoint; give at least one");
+  requireHolonomic(robot, robot.group(query.group));
   requirePositive(query.max_step, 0.0, "the largest step");
   requirePositive(query.max_rotation_step, 0.0, "the largest rotation of a step");
   requirePositive(query.max_deviation, kLeastDeviation, "the largest deviation");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "gpu_planning_scene/error.h"
 
@@ -18,6 +19,15 @@ std::shared_ptr<const GroupStateSpace> groupSpaceOf(const ompl::base::SpaceInfor
     throw Error("the state space '" + space->getName() + "' is for another robot; make it with the scene's robot " +
                 "(scaling links replaces that robot)");
   return space;
+}
+
+void requireHolonomic(const RobotModel& robot, const Group& group)
+{
+  for (const int index : group.joints)
+    if (const Joint& joint = robot.joints()[static_cast<std::size_t>(index)];
+        joint.diff_drive && !joint.mimic && !joint.passive)
+      throw Error("joint '" + joint.name + "' of group '" + group.name + "' cannot be planned for: it drives only " +
+                  "along its heading (motion_model diff_drive in the SRDF), and planned motions would drive sideways");
 }
 
 std::vector<double> referenceState(const PlanningScene& scene)

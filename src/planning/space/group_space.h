@@ -14,6 +14,10 @@ namespace gpu_planning_scene::core
 std::shared_ptr<const GroupStateSpace> groupSpaceOf(const ompl::base::SpaceInformation& information,
                                                     const PlanningScene& scene);
 
+/// Throws Error if the group moves a joint with Joint::diff_drive: neither the planners nor the straight lines keep it
+/// on its heading.
+void requireHolonomic(const RobotModel& robot, const Group& group);
+
 /// A row of all variables of the robot: the scene's current state, or RobotModel::defaultState() if the scene has none.
 std::vector<double> referenceState(const PlanningScene& scene);
 

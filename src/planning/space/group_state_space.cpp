@@ -17,6 +17,7 @@
 #include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
+#include "planning/space/group_space.h"
 
 // The joints with limits share one space; each other joint has a space of its own. The default projection has the first
 // joints with limits, because joints near the root move the robot the most. Planners with a grid of projections use it
@@ -157,10 +158,7 @@ std::vector<const Joint*> jointsByType(const RobotModel& robot, const Group& gro
   for (const int index : group.joints)
     if (isPlannedFor(robot, robot.joints()[index]))
       joints.push_back(&robot.joints()[index]);
-  for (const Joint* joint : joints)
-    if (joint->diff_drive)
-      throw Error("joint '" + joint->name + "' of group '" + group.name + "' cannot be planned for: it drives only " +
-                  "along its heading (motion_model diff_drive in the SRDF), and planned motions would drive sideways");
+  requireHolonomic(robot, group);
   for (const Joint* joint : joints)
     if (joint->type == JointType::Continuous && !isPeriodic(robot, *joint))
       throw Error(

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "gpu_planning_scene/inverse_kinematics.h"
+#include "model/model_testing.h"
 #include "scene/frame.h"
 #include "support/arms.h"
 #include "support/seed.h"
@@ -346,6 +348,46 @@ TEST_F(Lines, WithWrongInputAreRefusedInOneLine)
   drawStart();
   query_.start[static_cast<std::size_t>(arm_->robot->group(arm_->group).variables.front())] = 100.0;
   EXPECT_NE(std::string::npos, refusal().find("the start is out of bounds")) << refusal();
+}
+
+/// A base in the plane with a tool 0.2 m above it.
+CartesianQuery sidewaysQuery(const RobotModel& robot)
+{
+  CartesianQuery query;
+  query.group = "all";
+  query.link = robot.linkIndex("tool");
+  query.start = robot.defaultState();
+  query.waypoints = {linkPose(robot, query.link, query.start.data())};
+  query.waypoints.front().translation().y() += 0.05;
+  return query;
+}
+
+std::shared_ptr<const RobotModel> driven(const std::string& motion_model)
+{
+  return robotOf(boxLink("base") + "<link name='tool'/>" +
+                     jointXml("lift", "prismatic", "base", "tool", std::string("<origin xyz='0 0 0.2'/>") + kLimits),
+                 "<virtual_joint name='world' type='planar' parent_frame='map' child_link='base'/>"
+                 "<joint_property joint_name='world' property_name='motion_model' value='" +
+                     motion_model +
+                     "'/><group name='all'><joint name='world'/><joint name='lift'/></group>"
+                     "<group name='arm'><joint name='lift'/></group>");
+}
+
+TEST(LinesOfABase, ThatDrivesOnlyAlongItsHeadingAreRefused)
+{
+  const auto follow = [](const std::string& motion_model, const std::string& group)
+  {
+    const auto scene = std::make_shared<const PlanningScene>(driven(motion_model));
+    CartesianQuery query = sidewaysQuery(*scene->robot);
+    query.group = group;
+    return followLines(scene, std::make_shared<CpuChecker>(scene), query);
+  };
+  EXPECT_EQ(1.0, follow("holonomic", "all").fraction);
+  EXPECT_EQ(
+      "joint 'world' of group 'all' cannot be planned for: it drives only along its heading (motion_model diff_drive "
+      "in the SRDF), and planned motions would drive sideways",
+      errorOf([&] { follow("diff_drive", "all"); }));
+  EXPECT_EQ("", errorOf([&] { follow("diff_drive", "arm"); }));
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
