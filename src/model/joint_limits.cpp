@@ -17,11 +17,6 @@ constexpr double kWrittenDecimals = 1e-6;  // radians or metres: values are ofte
 
 constexpr double kTwoTurns = 4.0 * kPi;
 
-bool isOutside(const Variable& variable, double value)
-{
-  return variable.bounded && (value < variable.lower - kWrittenDecimals || value > variable.upper + kWrittenDecimals);
-}
-
 std::string number(double value, int digits = 6)
 {
   std::array<char, 32> text;
@@ -75,7 +70,7 @@ bool mayBeDegrees(const RobotModel& robot, int variable, double value)
 {
   // A smaller value is unlikely to be in degrees.
   return std::abs(value) > kTwoTurns && isAngle(robot, variable) &&
-         !isOutside(robot.variables()[static_cast<std::size_t>(variable)], value * kPi / 180.0);
+         !isOutsideLimits(robot.variables()[static_cast<std::size_t>(variable)], value * kPi / 180.0);
 }
 /// The first translation that is beyond kExactRange.
 std::optional<ValueOutsideLimits> findFarTranslation(const RobotModel& robot, const std::vector<int>& columns,
@@ -94,6 +89,11 @@ std::optional<ValueOutsideLimits> findFarTranslation(const RobotModel& robot, co
   return std::nullopt;
 }
 }  // namespace
+
+bool isOutsideLimits(const Variable& variable, double value)
+{
+  return variable.bounded && (value < variable.lower - kWrittenDecimals || value > variable.upper + kWrittenDecimals);
+}
 
 std::optional<ValueOutsideLimits> findManyTurns(const RobotModel& robot, const std::vector<int>& columns,
                                                 const double* rows, std::size_t count)
@@ -166,7 +166,7 @@ std::optional<ValueOutsideLimits> findValueOutsideLimits(const RobotModel& robot
   std::size_t first_row = 0;
   for (std::size_t row = 0; row < count; ++row)
     for (const int column : columns)
-      if (const double value = *rows++; isOutside(robot.variables()[static_cast<std::size_t>(column)], value))
+      if (const double value = *rows++; isOutsideLimits(robot.variables()[static_cast<std::size_t>(column)], value))
       {
         if (outside.count() == 0)
           first_row = row;

@@ -16,6 +16,10 @@ constexpr double kLargestProvenAngle = 1e6;
 /// The range of coordinates in the planning frame, in metres, within which answers are exact (docs/error_bounds.md).
 constexpr double kExactRange = 1000.0;
 
+/// True if the variable has limits and the value is outside them by more than the rounding of a value that is written
+/// with six decimals: 1e-6 (radians, metres).
+bool isOutsideLimits(const Variable& variable, double value);
+
 /// Collects values that are outside their joint limits or outside another range of their variables, and describes them
 /// in one line.
 class ValuesOutsideLimits

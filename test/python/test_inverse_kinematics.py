@@ -4,7 +4,7 @@ import unittest
 import numpy as np
 
 import gpu_planning_scene as gps
-from robots import Case, arm_scene
+from robots import ARM, Case, arm_scene
 
 GROUP = "arm"
 TIP = "palm"
@@ -141,6 +141,28 @@ class Poses(Case):
         for first, second in pairs:
             np.testing.assert_array_equal(first, second)
         self.assertFalse(np.array_equal(pairs[0][0], pairs[1][0]))
+
+    def test_a_seed_outside_the_limits_of_a_joint_that_the_search_keeps_is_refused(self):
+        # The group `hand` holds the arm and the gripper, which does not move the palm.
+        srdf = ARM.with_suffix(".srdf").read_text(encoding="utf-8")
+        hand = '<group name="hand"><group name="arm"/><joint name="grip"/></group></robot>'
+        robot = gps.RobotModel.from_xml(ARM.read_text(encoding="utf-8"), srdf.replace("</robot>", hand))
+        checker = gps.StateChecker(gps.PlanningScene(robot), device="cpu")
+        seed = np.array(self.base)
+        grip = robot.variable_index("grip")
+        limits = robot.variables[grip]
+        pose = self.scene.frame(TIP)
+        for value in (limits.lower, limits.upper + 5e-7):  # the second one is outside by rounding
+            seed[grip] = value
+            result = gps.solve_ik(checker, "hand", pose, seed_state=seed, frame=TIP)
+            self.assertEqual(gps.IkStatus.SOLVED, result.status)
+            self.assertTrue(limits.lower <= result.states[0, grip] <= limits.upper)
+        seed[grip] = 0.5
+        self.assert_one_line(
+            gps.Error, "^the given state must be within the limits of the joints that the search does not move: "
+            "joint 'grip' is 0.5, outside its limits 0 to ", gps.solve_ik, checker, "hand", [pose, pose], seed_state=seed,
+            frame=TIP)
+        self.assertEqual(gps.IkStatus.SOLVED, gps.solve_ik(checker, "arm", pose, seed_state=seed, frame=TIP).status)
 
     def test_wrong_input_is_refused_in_one_line(self):
         pose = self.scene.frame(TIP)

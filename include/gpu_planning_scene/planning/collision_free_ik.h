@@ -39,8 +39,9 @@ struct CollisionFreeIkResult
 /// variable of the robot; variables outside the group keep its values. `scene`: that of the checker
 /// (StateChecker::setScene); this is not verified. If `stop` returns true, goals without a solution get NoSolution. The
 /// searches run on all cores, and each of them calls `stop` on its own thread. Thread-safe. Throws Error if the number
-/// of values in `state` is wrong or a value is not valid, and the errors of InverseKinematics and of
-/// StateChecker::check; errors of a goal name it if there are several.
+/// of values in `state` is wrong or a value is not valid; if a variable of the group that moves no link of a goal is
+/// outside its limits by more than 1e-6 (radians, metres), because the search keeps its value; and the errors of
+/// InverseKinematics and of StateChecker::check; errors of a goal name it if there are several.
 std::vector<CollisionFreeIkResult> solveCollisionFree(const PlanningScene& scene, StateChecker& checker,
                                                       const std::string& group,
                                                       const std::vector<KinematicConstraints>& goals,

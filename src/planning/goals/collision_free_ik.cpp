@@ -11,6 +11,8 @@
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 #include "model/inverse_kinematics/ik_search.h"
+#include "model/inverse_kinematics/kinematic_chains.h"
+#include "model/joint_limits.h"
 
 // Rounds: each goal without enough solutions proposes its next candidate, and all candidates are checked in one batch.
 // Own method.
@@ -48,6 +50,34 @@ struct GoalSearch
   std::size_t collisions = 0;
 };
 
+/// Throws Error if the search keeps a value of the given state that is outside its limits. It moves only variables that
+/// move a link of the goal, and only those get within their limits.
+void requireLimitsOfKept(const InverseKinematics& kinematics, const Group& group, const std::vector<double>& state)
+{
+  const RobotModel& robot = kinematics.chains().robot();
+  std::vector<double> kept = state;
+  kinematics.constraints().clampJoints(kept.data());
+  ValuesOutsideLimits outside(robot);
+  for (const int variable : group.variables)
+    if (const double value = kept[static_cast<std::size_t>(variable)];
+        isOutsideLimits(robot.variables()[static_cast<std::size_t>(variable)], value) &&
+        !std::binary_search(kinematics.variables().begin(), kinematics.variables().end(), variable))
+      outside.add(variable, value);
+  if (outside.count() != 0)
+    throw Error("the given state must be within the limits of the joints that the search does not move: " +
+                outside.text());
+}
+
+/// The state with values of the group at their limits if they are outside by rounding alone.
+std::vector<double> withoutRounding(const RobotModel& robot, const Group& group, std::vector<double> state)
+{
+  for (const int index : group.variables)
+    if (const Variable& variable = robot.variables()[static_cast<std::size_t>(index)]; variable.bounded)
+      if (double& value = state[static_cast<std::size_t>(index)]; !isOutsideLimits(variable, value))
+        value = std::clamp(value, variable.lower, variable.upper);
+  return state;
+}
+
 double distanceBetween(const std::vector<int>& variables, const std::vector<double>& a, const std::vector<double>& b)
 {
   double sum = 0.0;
@@ -71,6 +101,13 @@ class Solver
   void add(const KinematicConstraints& goal)
   {
     goals_.push_back(std::make_unique<GoalSearch>(scene_.robot, group_, goal, state_, options_));
+  }
+
+  /// Throws Error if a search keeps a value of the given state that is outside its limits.
+  void requireKeptWithinLimits() const
+  {
+    for (const auto& goal : goals_)
+      requireLimitsOfKept(goal->kinematics, scene_.robot->group(group_), state_);
   }
 
   std::vector<CollisionFreeIkResult> run(const std::function<bool()>& stop)
@@ -181,7 +218,8 @@ std::vector<CollisionFreeIkResult> solveCollisionFree(const PlanningScene& scene
     throw Error("the state has " + std::to_string(state.size()) + " values; the robot has " +
                 std::to_string(scene.robot->variables().size()) + " variables");
   validateStates(*scene.robot, state.data(), 1);
-  Solver solver(scene, checker, group, state, options);
+  const std::vector<double> start = withoutRounding(*scene.robot, scene.robot->group(group), state);
+  Solver solver(scene, checker, group, start, options);
   for (std::size_t i = 0; i < goals.size(); ++i)
   {
     const auto add = [&] { solver.add(goals[i]); };
@@ -190,6 +228,7 @@ std::vector<CollisionFreeIkResult> solveCollisionFree(const PlanningScene& scene
     else
       withErrorPlace("goal " + std::to_string(i), add);
   }
+  solver.requireKeptWithinLimits();
   return solver.run(stop);
 }
 }  // namespace gpu_planning_scene::core

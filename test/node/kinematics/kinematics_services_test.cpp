@@ -168,6 +168,19 @@ TEST_F(KinematicsOfSlider, AQuaternionHasTheLengthOneUnlessAnyOrientationWillDo)
   expectNear(solutionsFor(request), {0.5, 0.25});  // the pole keeps its angle
 }
 
+TEST_F(KinematicsOfSlider, ASeedOutsideTheLimitsOfAJointThatTheSearchKeepsIsRefused)
+{
+  ComputeIk::Request request = requestFor({poseAlongX(0.5), poseAlongX(0.25)});
+  request.link = "cart";
+  request.seed_names = {"turn"};
+  request.seed = {7.0};
+  EXPECT_EQ(errorFor(request),
+            "the given state must be within the limits of the joints that the search does not move: joint 'turn' is 7, "
+            "outside its limits -3 to 3 rad");
+  request.link = "pole";  // the search moves `turn`
+  expectNear(solutionsFor(request), {0.5, 0.0, 0.25, 0.0});
+}
+
 TEST_F(KinematicsOfSlider, ACarriedObjectReachesThePose)
 {
   AttachedCollisionObject pen;

@@ -239,6 +239,44 @@ TEST(CollisionFreeIk, ManyGoalsAreSolvedAsEachAlone)
   }
 }
 
+TEST(CollisionFreeIk, AValueThatTheSearchKeepsMustBeWithinItsLimits)
+{
+  // Behind the wrist, the group moves a finger and a joint without a range. A passive joint moves the hand.
+  const std::string turn = "<axis xyz='0 0 1'/><limit lower='-3' upper='3' effort='1' velocity='1'/>";
+  const auto robot =
+      robotOf("<link name='foot'/><link name='upper'/><link name='lever'/><link name='hand'/>" + boxLink("finger") +
+                  boxLink("cover") + jointXml("shoulder", "revolute", "foot", "upper", turn) +
+                  jointXml("spring", "revolute", "upper", "lever", "<origin xyz='1 0 0'/>" + turn) +
+                  jointXml("bend", "revolute", "lever", "hand", turn) +
+                  jointXml("grip", "prismatic", "hand", "finger",
+                           "<origin xyz='2 0 0'/><limit lower='0' upper='0.04' effort='1' velocity='1'/>") +
+                  jointXml("screw", "revolute", "hand", "cover",
+                           "<origin xyz='4 0 0'/><limit lower='0.5' upper='0.5' effort='1' velocity='1'/>"),
+              "<passive_joint name='spring'/><group name='all'><joint name='shoulder'/><joint name='spring'/>"
+              "<joint name='bend'/><joint name='grip'/><joint name='screw'/></group>"
+              "<group name='arm'><joint name='shoulder'/><joint name='bend'/></group>");
+  const auto scene = std::make_shared<const PlanningScene>(robot);
+  CpuChecker checker(scene);
+  const auto solve = [&](const std::string& group, double spring, double grip, double screw)
+  {
+    const std::vector<double> state = {-3.5, spring, 3.5, grip, screw};
+    const KinematicConstraints goal = positionGoal(robot->linkIndex("hand"), {0.0, 1.0, 0.0});
+    return solveCollisionFree(*scene, checker, group, {goal, goal}, state, {}).front();
+  };
+  const auto fault = [&](double spring, double grip, double screw)
+  { return errorOf([&] { solve("all", spring, grip, screw); }); };
+  const std::string must_be = "the given state must be within the limits of the joints that the search does not move: ";
+  EXPECT_EQ(fault(0.0, 0.5, 0.5), must_be + "joint 'grip' is 0.5, outside its limits 0 to 0.04");
+  EXPECT_EQ(fault(0.0, 0.02, 0.51), must_be + "joint 'screw' is 0.51, outside its limits 0.5 to 0.5 rad");
+  EXPECT_EQ(fault(-3.1, 0.5, 0.5),
+            must_be + "joint 'spring' is -3.1, outside its limits -3 to 3 rad; 1 more value is outside the limits");
+  // A measured value may be outside by rounding. The solution is not.
+  const CollisionFreeIkResult rounded = solve("all", 0.0, 0.04 + 9e-7, 0.5 - 9e-7);
+  ASSERT_EQ(rounded.status, IkStatus::Solved) << rounded.message;
+  expectLimitsKept({"", robot, "all", "", ""}, {}, rounded.states.front());
+  EXPECT_EQ(solve("arm", 0.0, 0.5, 0.6).status, IkStatus::Solved) << "values outside the group may be anything";
+}
+
 TEST(CollisionFreeIk, ASearchCanBeStopped)
 {
   const auto results = solveElbow(sceneWithBall({9.0, 0.0, 0.0}), {kHand, kHand}, {}, [] { return true; });
