@@ -7,6 +7,7 @@
 #include "bindings/arguments.h"
 #include "bindings/bindings.h"
 #include "bindings/interrupt.h"
+#include "bindings/kinematic_constraints.h"
 #include "bindings/motion_checker.h"
 #include "bindings/state_checker.h"
 #include "gpu_planning_scene/planning/path_timing.h"
@@ -21,7 +22,7 @@ using core::TimedPoint;
 TimedPath timePath(const Arg<CheckerPtr>& checker, const Arg<std::string>& group, const py::object& waypoints,
                    Arg<double> velocity_factor, Arg<double> acceleration_factor, Arg<double> max_deviation,
                    const Arg<std::string>& rule, Arg<double> resolution, Arg<double> translation_resolution,
-                   Arg<std::size_t> max_samples)
+                   Arg<std::size_t> max_samples, const py::object& path_constraints)
 {
   const auto scene = checker.value->scene();
   const Rows rows = rowsFrom(waypoints, *scene->robot, "waypoints", &scene->current_state);
@@ -29,8 +30,10 @@ TimedPath timePath(const Arg<CheckerPtr>& checker, const Arg<std::string>& group
   std::vector<std::vector<double>> path;
   for (std::size_t i = 0; i < rows.count; ++i)
     path.emplace_back(rows.data() + i * width, rows.data() + (i + 1) * width);
-  const core::PathTimingOptions options{velocity_factor.value, acceleration_factor.value, max_deviation.value,
-                                        motionOptionsFrom(rule, resolution, translation_resolution, max_samples)};
+  core::PathTimingOptions options{velocity_factor.value, acceleration_factor.value, max_deviation.value,
+                                  motionOptionsFrom(rule, resolution, translation_resolution, max_samples)};
+  for (const core::KinematicConstraints& constraints : constraintsFrom(path_constraints, *scene, "path_constraints"))
+    options.path_constraints.append(constraints);
   Interrupt interrupt;
   TimedPath result = withoutLock(
       [&]
@@ -92,12 +95,15 @@ void addPathTiming(py::module_& module)
       py::arg("max_acceleration_scaling_factor") = defaults.max_acceleration_scaling_factor,
       py::arg("max_deviation") = defaults.max_deviation, py::arg("rule") = "bound",
       py::arg("resolution") = motions.steps.revolute, py::arg("translation_resolution") = motions.steps.prismatic,
-      py::arg("max_samples") = motions.max_samples,
+      py::arg("max_samples") = motions.max_samples, py::arg("path_constraints") = py::none(),
       "Computes times for a path, for example that of plan_motion, under the limits of the joints.\n\n"
-      "waypoints: shape (k, variables). The straight motions between them are not checked again. At a waypoint, the "
-      "motion leaves the path by at most max_deviation (radians, metres) on a curve that is valid by the motion rule, "
-      "or "
-      "it stops there: docs/planning.md explains the method. max_velocity_scaling_factor, "
+      "waypoints: shape (k, variables). The straight motions between them are not checked again. At a waypoint, each "
+      "joint leaves the path by at most max_deviation (radians, metres) on a curve that is valid by the motion rule, "
+      "or the robot stops there: docs/planning.md explains the method. For a path of follow_lines, give the "
+      "max_deviation of follow_lines (1e-4 by default): the default of time_path is 500 times larger, and would round "
+      "the corners of the lines by much more than they allow. path_constraints: those of plan_motion or follow_lines; "
+      "the robot then stops where the path turns, as with max_deviation 0, because the curves could leave the "
+      "constraints. max_velocity_scaling_factor, "
       "max_acceleration_scaling_factor: fractions of the limits, above 0 and at most 1. rule, resolution, "
       "translation_resolution, max_samples: as in MotionChecker.\n\nReturns a TimedPath. Raises Error for an unknown "
       "group, a group with a floating joint, numbers out of their ranges, values that are not finite, and a motion of "

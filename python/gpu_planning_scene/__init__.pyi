@@ -507,7 +507,9 @@ class TimedPath:
 
 def time_path(checker: StateChecker, group: str, waypoints: npt.ArrayLike, max_velocity_scaling_factor: float = ...,
               max_acceleration_scaling_factor: float = ..., max_deviation: float = ..., rule: str = ...,
-              resolution: float = ..., translation_resolution: float = ..., max_samples: int = ...) -> TimedPath: ...
+              resolution: float = ..., translation_resolution: float = ..., max_samples: int = ...,
+              path_constraints: Optional[Union[KinematicConstraints, Sequence[KinematicConstraints]]] = ...
+              ) -> TimedPath: ...
 
 class IkStatus:
     SOLVED: IkStatus

@@ -270,7 +270,7 @@ class Handlers
     PlanningQuery query = queryFrom(request, now, start, config, plannersOf(request.group), fewGoals());
     addRegions(request, *now.scene, {frameOfTf}, fewGoals().max_goals, query);
     planWarnings(request, now, start);
-    requestedTiming(request, *now.scene->robot, 0.05, query.motions);
+    requestedTiming(request, *now.scene->robot, 0.05, query.motions, query.path_constraints);
     requireWithinGroup(query, now.scene->robot);
   }
 

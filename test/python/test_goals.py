@@ -15,6 +15,11 @@ def pose_in(scene, state, link=TIP):
     return scene.robot.link_poses(state)[[each.name for each in scene.robot.links].index(link)]
 
 
+def stops_of(timed):
+    """Waypoints that the motion passes beside the path, and those at which it stops."""
+    return timed.blends, timed.stops
+
+
 class PoseGoals(Case):
     def setUp(self):
         self.scene = arm_scene()
@@ -60,6 +65,13 @@ class PoseGoals(Case):
         for a, b in zip(result.waypoints[:-1], result.waypoints[1:]):
             for state in a + np.linspace(0, 1, 50)[:, None] * (b - a):
                 self.assertEqual((0.0, 0.0, 0.0), level.violation(state))
+        # A path with these constraints has no rounded corners.
+        corners = np.vstack([START, START + [0.3, 0, 0, 0, 0, 0, 0], START + [0.3, 0, 0.3, 0, 0, 0, 0]])
+        self.assertEqual((1, 0), stops_of(gps.time_path(self.checker, "arm", corners, rule="samples")))
+        timed = gps.time_path(self.checker, "arm", corners, path_constraints=[level])
+        self.assertEqual((0, 1), stops_of(timed))
+        self.assert_one_line(TypeError, "path_constraints: expected a KinematicConstraints", gps.time_path, self.checker,
+                             "arm", corners, path_constraints=np.eye(4))
 
     def test_wrong_constraints_are_refused_in_one_line(self):
         constraints = gps.KinematicConstraints(self.scene)

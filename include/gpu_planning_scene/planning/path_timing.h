@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu_planning_scene/kinematic_constraints.h"
 #include "gpu_planning_scene/motion_checker.h"
 #include "gpu_planning_scene/planning_scene.h"
 
@@ -18,9 +19,13 @@ struct PathTimingOptions
   double max_velocity_scaling_factor = 1.0;
   double max_acceleration_scaling_factor = 1.0;
   /// The largest deviation of any variable from the path at a waypoint (radians or metres); at least 0. With 0, the
-  /// robot stops at each waypoint at which the path turns.
+  /// robot stops at each waypoint at which the path turns. For a path of followLines, take
+  /// CartesianQuery::max_deviation: the default is 500 times that of the lines, and would round their corners by much
+  /// more than they allow.
   double max_deviation = 0.05;
   MotionCheckerOptions motions;  ///< the rule by which blends are valid
+  /// Those that the path fulfils. If there are any, max_deviation counts as 0, because a blend could leave them.
+  KinematicConstraints path_constraints = {};
 };
 
 /// Throws Error if a scaling factor or the deviation is out of its range.
@@ -57,7 +62,8 @@ struct TimedPath
 /// its largest velocity. At a waypoint, the robot leaves the path on a parabola. `options.motions` checks this curve
 /// itself: under MotionRule::Bound it is proven free, under MotionRule::Samples its samples are free. Where a parabola
 /// is not valid, smaller ones are tried; if they are not valid either, the robot stops at the waypoint. It rests at the
-/// start and the goal. A joint with Joint::diff_drive that moves is stopped at each waypoint.
+/// start and the goal. A joint with Joint::diff_drive that moves is stopped at each waypoint. A blend is checked for
+/// collisions only, so each path with path constraints needs PathTimingOptions::path_constraints.
 ///
 /// The limits are those of Variable, times the scaling factors. As in MoveIt, a missing limit of velocity or
 /// acceleration counts as 1. A joint that mimics another one has no limits. Acceleration jumps at points, so jerk is

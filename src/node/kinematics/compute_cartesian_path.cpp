@@ -84,8 +84,8 @@ ComputeCartesianPath::Response KinematicsServices::computeCartesianPath(const Re
             requestedPathConstraints(request.path_constraints, *scene, request.group, query.start.data(), others_);
 
         const auto began = std::chrono::steady_clock::now();
-        const std::optional<PathTimingOptions> timing = requestedTiming(
-            request, *scene->robot, query.path_constraints.isEmpty() ? query.max_deviation : 0.0, query.motions);
+        const std::optional<PathTimingOptions> timing =
+            requestedTiming(request, *scene->robot, query.max_deviation, query.motions, query.path_constraints);
         CheckerPool::Lease lease(checkers_, scene, !requested.is_changed);
         const Lines lines = withLease(
             lease,

@@ -141,8 +141,8 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
   std::vector<std::string> warnings = std::move(requested.warnings);
   for (std::string& warning : planWarnings(request, now, start))
     warnings.push_back(std::move(warning));
-  const auto timing = requestedTiming(request, *now.scene->robot,
-                                      query.path_constraints.isEmpty() ? options_.max_deviation : 0.0, query.motions);
+  const auto timing =
+      requestedTiming(request, *now.scene->robot, options_.max_deviation, query.motions, query.path_constraints);
   return {now.scene, !requested.is_changed, std::move(query), timing, factory, config.type, std::move(warnings)};
 }
 

@@ -209,7 +209,8 @@ TimedPath timePath(const PlanningScene& scene, const std::shared_ptr<StateChecke
   for (const Row& row : rows)
     corners.push_back(arrayOf(row));
   const bool is_diff_drive = movesDiffDrive(robot, rows);
-  BlendedPath path(std::move(corners), velocity, acceleration, options.max_deviation);
+  BlendedPath path(std::move(corners), velocity, acceleration,
+                   options.path_constraints.isEmpty() ? options.max_deviation : 0.0);
   if (is_diff_drive)
   {
     for (std::size_t i = 0; i < path.waypoints(); ++i)

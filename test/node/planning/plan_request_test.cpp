@@ -69,7 +69,7 @@ TEST_F(BaseRequest, HasTheWorkspaceOfItsMessage)
 
 TEST_F(BaseRequest, ScalesVelocitiesAsMoveItDoes)
 {
-  const auto timing = [&] { return requestedTiming(request_, *robot(), 0.02, {MotionRule::Samples}); };
+  const auto timing = [&] { return requestedTiming(request_, *robot(), 0.02, {MotionRule::Samples}, {}); };
   EXPECT_FALSE(timing());
   request_.times = true;
   ASSERT_TRUE(timing());

@@ -490,6 +490,20 @@ TEST(PathTiming, StopsADifferentialDriveAtEachWaypoint)
   EXPECT_EQ(parked.stops, 0U);
 }
 
+TEST(PathTiming, StopsWhereAPathWithConstraintsTurns)
+{
+  const PointRobot robot({});
+  const Rows path = {{-1.0, 0.0}, {0.0, 0.0}, {0.5, 0.0}, {0.5, 1.0}};
+  PathTimingOptions options;
+  EXPECT_EQ(timesOf(robot, path, options).blends, 1U);
+  options.path_constraints.joints.push_back({0, -1.0, 0.5});
+  const TimedPath timed = timesOf(robot, path, options);
+  EXPECT_EQ(timed.blends, 0U);
+  EXPECT_EQ(timed.stops, 1U);
+  options.max_deviation = 0.0;
+  expectPromises(*robot.scene()->robot, timed, path, options);
+}
+
 TEST(PathTiming, RefusesAGroupWithAFloatingJoint)
 {
   const auto scene = std::make_shared<const PlanningScene>(mobileRobot({}, "floating"));
