@@ -47,8 +47,9 @@ struct CartesianPath
 {
   /// The part of the lines that the path follows, from 0 to 1. Each line counts by its number of steps.
   double fraction = 0.0;
-  std::string message;                    ///< why the path ends earlier, in one line; empty if the fraction is 1
-  std::vector<std::vector<double>> rows;  ///< the start and the states along the lines: rows of all variables
+  std::string message;  ///< why the path ends earlier, in one line; empty if the fraction is 1
+  /// The start and the states along the lines: rows of all variables. Angles continue without jumps by whole turns.
+  std::vector<std::vector<double>> rows;
   std::uint64_t states_checked = 0;
   std::uint64_t revision = 0;  ///< of the checked scene
 };

@@ -15,6 +15,7 @@
 #include "model/rigid_pose.h"
 #include "planning/lines/straight_lines.h"
 #include "planning/space/group_space.h"
+#include "planning/space/waypoints.h"
 #include "scene/frame.h"
 
 // Each row is the solution of inverse kinematics that is nearest to the row before it. A step is halved until the
@@ -129,7 +130,10 @@ class Follower
     const InverseKinematics kinematics = kinematicsAt(at);
     std::vector<double> row = rows_.back();
     std::string fault;
-    if (!kinematics.project(row.data()))
+    const bool is_reached = kinematics.project(row.data());
+    // The descent may turn a joint by whole turns. A controller that interpolates numbers would drive them, unchecked.
+    continueAngles(*robot_, rows_.back(), row);
+    if (!is_reached)
       fault =
           "the pose is not reached: the nearest state is " + kinematics.violation(row.data()).text() + limitText(row);
     else if (fault = jumpOf(row); fault.empty() && deviates(kinematics, row, at))

@@ -1,5 +1,6 @@
 #include "planning/space/waypoints.h"
 
+#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Core>
@@ -60,6 +61,19 @@ int wrappedAngle(const Joint& joint)
     default:
       return -1;
   }
+}
+
+void continueAngles(const RobotModel& robot, const Row& from, Row& row)
+{
+  constexpr double kTurn = 2.0 * EIGEN_PI;
+  for (const Joint& joint : robot.joints())
+    if (const int angle = joint.mimic ? -1 : wrappedAngle(joint);
+        angle >= 0 && (joint.type == JointType::Planar || isPeriodic(robot, joint)))
+    {
+      double& value = row[static_cast<std::size_t>(angle)];
+      const double before = from[static_cast<std::size_t>(angle)];
+      value += kTurn * std::round((before + shortestAngularDistance(before, value) - value) / kTurn);
+    }
 }
 
 std::vector<Row> waypointsOf(const ompl::geometric::PathGeometric& path, const GroupStateSpace& space, const Row& start)

@@ -62,21 +62,13 @@ void validateRows(const RobotModel& robot, const std::string& group, const Rows&
 /// The waypoints without repetitions, with angles that continue in the direction of the straight motion between them.
 Rows continuousRows(const RobotModel& robot, const Rows& rows)
 {
-  constexpr double kTurn = 2.0 * EIGEN_PI;
   Rows result;
   for (Row row : rows)
   {
     if (!result.empty())
     {
       const Row& last = result.back();
-      for (const Joint& joint : robot.joints())
-        if (const int angle = joint.mimic ? -1 : wrappedAngle(joint);
-            angle >= 0 && (joint.type == JointType::Planar || isPeriodic(robot, joint)))
-        {
-          double& value = row[static_cast<std::size_t>(angle)];
-          const double from = last[static_cast<std::size_t>(angle)];
-          value += kTurn * std::round((from + shortestAngularDistance(from, value) - value) / kTurn);
-        }
+      continueAngles(robot, last, row);
       if ((arrayOf(row) - arrayOf(last)).abs().maxCoeff() < kEqual)
       {
         // The last of equal waypoints may be the goal, and the first one is the start.

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/math_constants.h"
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
@@ -348,6 +349,40 @@ TEST_F(Lines, WithWrongInputAreRefusedInOneLine)
   drawStart();
   query_.start[static_cast<std::size_t>(arm_->robot->group(arm_->group).variables.front())] = 100.0;
   EXPECT_NE(std::string::npos, refusal().find("the start is out of bounds")) << refusal();
+}
+
+TEST(LinesOfContinuousJoints, ContinueWithoutWholeTurns)
+{
+  const auto scene = std::make_shared<const PlanningScene>(
+      robotOf("<link name='base'/><link name='upper'/><link name='fore'/><link name='hand'/>" +
+                  jointXml("shoulder", "continuous", "base", "upper", "<axis xyz='0 0 1'/>") +
+                  jointXml("elbow", "continuous", "upper", "fore", "<origin xyz='0.5 0 0'/><axis xyz='0 0 1'/>") +
+                  jointXml("wrist", "continuous", "fore", "hand", "<origin xyz='0.5 0 0'/><axis xyz='0 0 1'/>"),
+              "<group name='arm'><joint name='shoulder'/><joint name='elbow'/><joint name='wrist'/></group>"));
+  const auto checker = std::make_shared<CpuChecker>(scene);
+  // Each line is one step, whose descent may pass whole turns.
+  CartesianQuery query;
+  query.group = "arm";
+  query.link = scene->robot->linkIndex("hand");
+  query.max_step = query.max_rotation_step = query.max_joint_step = 10.0;
+  query.max_deviation = query.max_rotation_deviation = 10.0;
+  query.check_collisions = false;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937_64 generator(kSeed);
+  std::uniform_real_distribution<double> angle(-3.0, 3.0);
+  std::size_t whole = 0;
+  for (int i = 0; i < 200; ++i)
+  {
+    const std::vector<double> end = {angle(generator), angle(generator), angle(generator)};
+    query.start = {angle(generator), angle(generator), 50.0 + angle(generator)};
+    query.waypoints = {linkPose(*scene->robot, query.link, end.data())};
+    const CartesianPath path = followLines(scene, checker, query);
+    whole += path.fraction == 1.0 ? 1 : 0;
+    for (std::size_t row = 1; row < path.rows.size(); ++row)
+      for (std::size_t k = 0; k < end.size(); ++k)
+        EXPECT_LE(std::abs(path.rows[row][k] - path.rows[row - 1][k]), kPi + 1e-9) << "line " << i << ", joint " << k;
+  }
+  EXPECT_GT(whole, 100U);
 }
 
 /// A base in the plane with a tool 0.2 m above it.
