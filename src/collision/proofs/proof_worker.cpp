@@ -97,6 +97,15 @@ class ProofWorker
   }
 
  private:
+  struct Task
+  {
+    std::weak_ptr<ProofJob> job;
+    std::shared_ptr<const RobotModel> robot;
+    std::shared_ptr<const CollisionProblem> problem;
+    std::shared_ptr<const CpuForest> forest;
+    bool makes;
+  };
+
   ProofWorker() = default;
 
   void end()
@@ -111,17 +120,6 @@ class ProofWorker
     if (thread_.joinable())
       thread_.join();
   }
-
-  struct Task
-  {
-    std::weak_ptr<ProofJob> job;
-    std::shared_ptr<const RobotModel> robot;
-    std::shared_ptr<const CollisionProblem> problem;
-    std::shared_ptr<const CpuForest> forest;
-    bool makes;
-  };
-
-  ProofWorker() = default;
 
   void work()
   {

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "collision/geometry/outward_rounding.h"
 #include "collision/geometry/primitive_solid.h"
 #include "gpu_planning_scene/error.h"
 #include "shader_constants.h"
