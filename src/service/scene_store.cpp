@@ -84,6 +84,16 @@ void assign(const RobotModel& robot, const std::map<std::string, double>& variab
 }
 }  // namespace
 
+std::string Snapshot::endedVariable(const std::vector<int>& others) const
+{
+  for (std::size_t i = 0; i < ages.size(); ++i)
+    if (std::isfinite(ages[i]) && !isMeasured(static_cast<int>(i)) &&
+        std::count(others.begin(), others.end(), static_cast<int>(i)) == 0)
+      return "joint_states has brought no value of '" + scene->robot->variables()[i].name + "' for " +
+             numberText(ages[i]) + " s, so this joint may be anywhere";
+  return "";
+}
+
 bool Snapshot::allKnown() const
 {
   std::vector<bool> all = partialState().known;

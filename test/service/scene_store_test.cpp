@@ -358,6 +358,20 @@ TEST_F(Store, TheStateAtAStampNeedsANearValueOfEachMeasuredVariable)
   EXPECT_EQ((std::vector<double>{1.0, 0.75}), store.stateAt(7 * kSecond)) << "without a stamp, the newest value counts";
 }
 
+TEST_F(Store, AMeasuredVariableWhoseValuesHaveEndedIsNamed)
+{
+  store.updateState({{"slide", 0.25}});
+  EXPECT_EQ("", store.snapshot().endedVariable()) << "nobody has ever measured the other variable";
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  EXPECT_EQ(0u, store.snapshot().endedVariable().find("joint_states has brought no value of 'slide' for 1."));
+  EXPECT_EQ("", store.snapshot().endedVariable({store.snapshot().scene->robot->variableIndex("slide")}));
+  SceneChange change;
+  change.is_diff = true;
+  change.state.variables = {{"slide", 0.5}};
+  store.apply(change, unknownFrame);
+  EXPECT_EQ("", store.snapshot().endedVariable()) << "a client has set it";
+}
+
 TEST_F(Store, AClockThatIsSetBackByLessThanTheKeptTimeForgetsTheValuesOfBefore)
 {
   constexpr std::int64_t kSecond = 1'000'000'000;

@@ -13,6 +13,8 @@ MeasuredAt measuredAt(const std_msgs::Header& header, const SceneStore& store, c
   if (!measured.now.allKnown())
     throw Error(
         "the robot's state is not known yet, so points on the robot cannot be removed; publish joint_states first");
+  if (const std::string fault = header.stamp.isZero() ? measured.now.endedVariable() : ""; !fault.empty())
+    throw Error(fault);
   const StampedFrame frame{header.frame_id, static_cast<std::int64_t>(header.stamp.toNSec())};
   measured.state = store.stateAt(frame.stamp);
   const std::optional<Eigen::Isometry3d> known = measured.now.scene->frame(frame.name, measured.state.data());

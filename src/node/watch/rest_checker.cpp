@@ -1,11 +1,9 @@
 #include "node/watch/rest_checker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
-#include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
 #include "model/full_states.h"
 #include "node/checks/requested_motions.h"
@@ -41,16 +39,6 @@ TimedRows restOf(const Snapshot& scene, const std::vector<Watched>& watched)
   }
   const std::vector<double> state = fullStates(robot, columnsOf(watched), values.data(), 1, scene.partialState());
   return motionOfAll(robot, trajectories, delays, state, 0.0);
-}
-
-/// Throws Error if the values of a joint that no trajectory moves come no more: it may be anywhere by now.
-void requireLiveJoints(const Snapshot& scene, const std::vector<int>& moved)
-{
-  for (std::size_t i = 0; i < scene.ages.size(); ++i)
-    if (std::isfinite(scene.ages[i]) && !scene.isMeasured(static_cast<int>(i)) &&
-        std::count(moved.begin(), moved.end(), static_cast<int>(i)) == 0)
-      throw Error("joint_states has brought no value of '" + scene.scene->robot->variables()[i].name + "' for " +
-                  numberText(scene.ages[i]) + " s, so this joint may be anywhere");
 }
 
 /// A message why nothing is proven although nothing is known to collide.
@@ -107,7 +95,8 @@ void RestChecker::takeScene(const std::shared_ptr<const PlanningScene>& scene)
 void RestChecker::check(const Snapshot& scene, const std::vector<Watched>& watched, bool with_contact,
                         const std::function<bool()>& is_over, WatchState& state)
 {
-  requireLiveJoints(scene, columnsOf(watched));
+  if (const std::string fault = scene.endedVariable(columnsOf(watched)); !fault.empty())
+    throw Error(fault);
   takeScene(scene.scene);
   const RobotModel& robot = *scene.scene->robot;
   const TimedRows rest = restOf(scene, watched);
