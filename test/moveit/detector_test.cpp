@@ -322,6 +322,29 @@ TEST_F(Detector, AsksTheDeciderOfEachContactOfAPair)
   }
 }
 
+TEST_F(Detector, APairWithContactsThatAreNotComputedCollidesWhateverTheDeciderSays)
+{
+  AllowedCollisionMatrix matrix;
+  matrix.setEntry("<octomap>", "cart", [](Contact&) { return true; });
+  const auto octree = std::make_shared<octomap::OcTree>(0.02);
+  octree->updateNode(octomap::point3d(0.01F, 0.01F, 0.01F), true);
+  add("<octomap>", std::make_shared<shapes::OcTree>(octree), Isometry3d::Identity());
+  EXPECT_TRUE(collides());
+  EXPECT_FALSE(collides(&matrix));
+  env_->getWorld()->removeObject("<octomap>");
+  // Every second leaf, so that the octree does not join them.
+  for (int x = -4; x <= 4; ++x)
+    for (int y = -4; y <= 4; ++y)
+      for (int z = -4; z <= 4; ++z)
+        if ((x + y + z) % 2 == 0)
+          octree->updateNode(
+              octomap::point3d(0.02F * static_cast<float>(x) + 0.01F, 0.02F * static_cast<float>(y) + 0.01F,
+                               0.02F * static_cast<float>(z) + 0.01F),
+              true);
+  add("<octomap>", std::make_shared<shapes::OcTree>(octree), Isometry3d::Identity());
+  EXPECT_TRUE(collides(&matrix)) << "it might refuse one of the contacts that it has not seen";
+}
+
 TEST_F(Detector, FollowsDefaultEntriesOfTheMatrix)
 {
   add("box", box(0.2), Isometry3d::Identity());
