@@ -71,8 +71,9 @@ void TrajectoryWatcher::stop()
   }
   if (thread_.joinable())
     thread_.join();
-  if (!watched_.empty())
+  if (!watched_.empty() && !has_said_the_end_)
   {
+    has_said_the_end_ = true;
     WatchState state;
     state.header.stamp = ros::Time::now();
     state.verdict = WatchState::UNKNOWN;
@@ -81,9 +82,8 @@ void TrajectoryWatcher::stop()
     state.collision_in = kInfinity;
     for (const Watched& each : watched_)
       state.ended.push_back(each.id);
-    cancelGoals(state);
+    cancelGoals(state);  // The publishers stay, because a publisher that is destroyed drops what it has not sent.
     publisher_.publish(state);
-    watched_.clear();
   }
   for (Order& order : orders_)
     order.answer.set_exception(std::make_exception_ptr(ShuttingDown()));

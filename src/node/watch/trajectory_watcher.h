@@ -77,6 +77,7 @@ class TrajectoryWatcher
   ros::Publisher publisher_;
   std::vector<Watched> watched_;
   std::vector<std::string> ended_;  // since the last message
+  bool has_said_the_end_ = false;
   RestChecker rest_checker_;
 
   std::mutex mutex_;  // guards the members below
