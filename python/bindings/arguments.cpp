@@ -50,6 +50,7 @@ std::function<std::string(const std::string&)> pathFunctionOf(py::function funct
     return pathFrom((*shared)(name), what);
   };
 }
+
 /// Whether an object is a numpy.ma.MaskedArray, or of a class that is derived from it.
 bool isMasked(py::handle object)
 {
@@ -75,9 +76,10 @@ std::vector<std::string> columnsOf(py::handle object)
   std::vector<std::string> columns;
   if (py::isinstance<py::array>(object))
     return columns;
-  const char* attribute = py::hasattr(object, "columns")    ? "columns"
-                          : py::hasattr(object, "to_frame") ? "index"
-                                                            : nullptr;
+  const char* attribute = py::hasattr(object, "column_names") ? "column_names"  // pyarrow.Table
+                          : py::hasattr(object, "columns")    ? "columns"
+                          : py::hasattr(object, "to_frame")   ? "index"
+                                                              : nullptr;
   if (attribute == nullptr || !py::hasattr(object, attribute))
     return columns;
   bool has_text = false;

@@ -1,6 +1,6 @@
 #pragma once
-// The answers are exact only if the compiler keeps to IEEE 754: double operations are rounded once, to double, in the
-// order of the program. A package that includes this header does not compile otherwise.
+// The answers are exact only if the compiler does not reorder sums and rounds each double operation to double. A file
+// that includes this header does not compile with the options of GCC that break this.
 
 #include <cfloat>
 

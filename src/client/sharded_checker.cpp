@@ -71,11 +71,8 @@ struct ShardedChecker::Impl
             node->call<gpu_planning_scene::GetPlanningScene>("get_planning_scene", request, is_cancelled);
         const std::uint64_t revision = answer.scene.scene_revision;
         // A replica may lag behind. The leader's revisions begin anew when it starts again.
-        if (answer.success && revision != 0 && (node == nodes.front() || revision >= newest))
-        {
-          newest = revision;
+        if (answer.success && revision != 0 && isNewEnough(revision, node == nodes.front()))
           return commonStateOf(answer.scene);
-        }
         const std::string why = !answer.success ? answer.message
                                 : revision == 0 ? "it has no revision"
                                                 : "it has revision " + std::to_string(revision) + ", but revision " +
@@ -87,6 +84,18 @@ struct ShardedChecker::Impl
         failure = noAnswerOf(node->node(), std::string("its scene is missing: ") + fault.what()).failure;
       }
     return std::nullopt;
+  }
+
+  /// Only the leader may go back to a lower revision.
+  bool isNewEnough(std::uint64_t revision, bool is_leader)
+  {
+    std::uint64_t known = newest;
+    do
+    {
+      if (revision < known && !is_leader)
+        return false;
+    } while (!newest.compare_exchange_weak(known, revision));
+    return true;
   }
 
   /// The number of variables of the robot; 0 if no node reports it.

@@ -109,7 +109,9 @@ void serve(ros::NodeHandle& node, ros::NodeHandle& own, const OpenDevice& open_d
   SceneServices changes(store, look_up, memory, setup);
   const SceneStore::Lookup find_frame = [&lookup](const StampedFrame& frame)
   { return lookup(frame, FrameLookup::Clock::now()); };
-  CloudTopic clouds(store, find_frame, options.tf_timeout, memory, options.cloud, options.cloud_id);
+  CloudTopic clouds(
+      store, find_frame, options.tf_timeout, [&stopping] { return stopping.load(); }, memory, options.cloud,
+      options.cloud_id);
   MarkerPublisher markers(own, store, options.marker_rate, options.marker_triangles);
   const ScenePublisher publisher(own, store, options.full_scene_period, setup);
   const ros::WallTimer forget =

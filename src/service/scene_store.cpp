@@ -18,6 +18,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
+constexpr double kEndedAge = 2.5;  // seconds; slow drivers, for example of grippers, publish once a second
+
 using Clock = std::chrono::steady_clock;
 
 // Earlier scenes are kept for requests that many nodes answer together. These bounds keep them below some 100 MB.
@@ -87,7 +89,7 @@ void assign(const RobotModel& robot, const std::map<std::string, double>& variab
 std::string Snapshot::endedVariable(const std::vector<int>& others) const
 {
   for (std::size_t i = 0; i < ages.size(); ++i)
-    if (std::isfinite(ages[i]) && !isMeasured(static_cast<int>(i)) &&
+    if (std::isfinite(ages[i]) && ages[i] > kEndedAge &&
         std::count(others.begin(), others.end(), static_cast<int>(i)) == 0)
       return "joint_states has brought no value of '" + scene->robot->variables()[i].name + "' for " +
              numberText(ages[i]) + " s, so this joint may be anywhere";
@@ -301,6 +303,7 @@ std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::strin
       {
         stamps_[static_cast<std::size_t>(variable)] = 0;
         measured_at_[static_cast<std::size_t>(variable)] = Clock::time_point::min();
+        history_.add(static_cast<std::size_t>(variable), 0.0, 0);
       }
     keep(before);
   }
@@ -382,6 +385,7 @@ std::string SceneStore::updateState(const std::map<std::string, double>& variabl
     if (!std::isfinite(value))
     {
       known_[index] = false;
+      state_[index] = PartialState(robot).values[index];
       measured_at_[index] = Clock::time_point::min();
       stamps_[index] = 0;
       history_.add(index, 0.0, 0);

@@ -41,7 +41,7 @@ struct Snapshot
   /// Whether SceneStore::updateState has set the variable in the last second. This is longer than between two messages
   /// of a running robot's joints. A joint whose messages end takes values from others.
   bool isMeasured(int variable) const { return ages[static_cast<std::size_t>(variable)] <= 1.0; }
-  /// A fault in one line if SceneStore::updateState has set a variable, but not in the last second: the joint may be
+  /// A fault in one line if SceneStore::updateState has set a variable, but not in the last 2.5 s: the joint may be
   /// anywhere by now. Empty: there is no such variable. `others`: variables that do not count.
   std::string endedVariable(const std::vector<int>& others = {}) const;
   /// Whether all variables are known. The virtual joint counts as known if `base` has values. Passive joints always

@@ -18,8 +18,9 @@ void StateHistory::add(std::size_t variable, double value, std::int64_t stamp)
     values = {};
     return;
   }
-  while (!by_stamp.empty() && by_stamp.back().stamp > stamp + kNear)
-    by_stamp.pop_back();
+  if (!by_stamp.empty() && by_stamp.back().stamp > stamp + kNear)
+    while (!by_stamp.empty() && by_stamp.back().stamp > stamp)
+      by_stamp.pop_back();
   values.forgot = values.forgot && !by_stamp.empty();
   const auto at = std::lower_bound(by_stamp.begin(), by_stamp.end(), stamp,
                                    [](const Stamped& other, std::int64_t wanted) { return other.stamp < wanted; });

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gpu_planning_scene::core
@@ -18,8 +19,8 @@ class StateHistory
   /// `names`: of the variables, for messages.
   explicit StateHistory(std::vector<std::string> names) : names_(std::move(names)), values_(names_.size()) {}
 
-  /// A stamp of 0 means "no stamp": the variable then has no history. Values that are more than kNear later than
-  /// `stamp` are dropped, because the clock was set back.
+  /// A stamp of 0 means "no stamp": the variable then has no history. If a value is more than kNear later than `stamp`,
+  /// the clock was set back, and all later values are dropped.
   void add(std::size_t variable, double value, std::int64_t stamp);
 
   /// Sets each variable that has a history to its value at the nearest stamp (nanoseconds). Throws Error if this stamp

@@ -119,7 +119,8 @@ class Handlers
           fewStates()),
       checks_(store_, server_, memory_, fewChecks(), {frameOfTf}),
       scenes_(store_, frameOfTf, memory_),
-      clouds_(store_, frameOfTf, 0.0, memory_, fewVoxels(), "cloud"),
+      clouds_(
+          store_, frameOfTf, 0.0, [] { return false; }, memory_, fewVoxels(), "cloud"),
       map_(smallMap())
   {
     store_.setListener(

@@ -1,4 +1,8 @@
 """MotionChecker: both rules, the three queries, errors, Ctrl-C."""
+import pathlib
+import subprocess
+import sys
+import textwrap
 import threading
 import unittest
 
@@ -86,23 +90,29 @@ class MotionChecker(Case):
             thread.join()
 
     def test_a_checker_can_be_made_while_another_thread_checks(self):
-        scene = kr5_scene()
-        checker = gps.StateChecker(scene, device="cpu")
-        states = scene.robot.random_states(20000, seed=1)
-        ended = threading.Event()
+        # In a process of its own: if the threads wait for each other, the interpreter hangs.
+        program = textwrap.dedent(f"""
+            import sys, threading
+            sys.path.insert(0, {str(pathlib.Path(__file__).parent)!r})
+            import gpu_planning_scene as gps
+            from robots import kr5_scene
+            scene = kr5_scene()
+            checker = gps.StateChecker(scene, device="cpu")
+            states = scene.robot.random_states(20000, seed=1)
+            ended = threading.Event()
 
-        def check():
-            while not ended.is_set():
-                checker.check(states)
+            def check():
+                while not ended.is_set():
+                    checker.check(states)
 
-        thread = threading.Thread(target=check)
-        thread.start()
-        try:
+            thread = threading.Thread(target=check)
+            thread.start()
             for _ in range(5):
                 gps.MotionChecker(checker)
-        finally:
             ended.set()
             thread.join()
+        """)
+        subprocess.run([sys.executable, "-c", program], check=True, timeout=100)
 
     def test_ends_can_be_states_of_the_srdf(self):
         scene = arm_scene()

@@ -25,6 +25,13 @@ def packaged_files():
     return {file for path in found for file in [path, *path.rglob("*")]}
 
 
+def misplaced_files():
+    """The lines of gpu-planning-scene-doc.install that move a file from its place beside the other documents."""
+    lines = (ROOT / "debian" / "gpu-planning-scene-doc.install").read_text().splitlines()
+    return [line for line in lines
+            if line.split()[1] != f"usr/share/doc/gpu-planning-scene/{line.split()[0].rpartition('/')[0]}"]
+
+
 def links_out_of_the_package(packaged):
     """The links of the packaged documents to files of the repository that are not packaged."""
     documents = [path for path in packaged if path.suffix == ".md"]
@@ -59,6 +66,7 @@ class Packaging(unittest.TestCase):
 
     def test_links_of_the_packaged_documents_lead_into_the_package(self):
         self.assertEqual([], links_out_of_the_package(packaged_files()))
+        self.assertEqual([], misplaced_files())  # debhelper puts the files of .docs there
 
     def test_a_link_out_of_the_package_is_found(self):
         self.assertIn("README.md: docs/gpu.md", links_out_of_the_package({ROOT / "README.md"}))

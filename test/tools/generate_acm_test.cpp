@@ -408,17 +408,17 @@ TEST_F(GenerateAcm, KeepsWhatTheUserWroteInAnSrdf)
 TEST_F(GenerateAcm, LosesNothingOfAnExistingFile)
 {
   folder.write("out.srdf", "<robot name=\"line--up\"><group name=\"all\"><joint name=\"slide\"/></group></robot>");
-  EXPECT_EQ(0, generate({"--samples", "10"}).exit_code);
+  EXPECT_EQ(0, generate({"--samples", "100"}).exit_code);
   EXPECT_NE(std::string::npos, contentOf(out).find("<group name=\"all\">"));
 
   const std::string of_another = "<robot name=\"another\"/>";
   folder.write("out.srdf", of_another);
-  const ProgramOutput output = generate({"--samples", "10"});
+  const ProgramOutput output = generate({"--samples", "100"});
   EXPECT_EQ(1, output.exit_code);
   EXPECT_NE(std::string::npos, output.err.find("is not an SRDF of robot 'line--up'; choose another name"))
       << output.err;
   const ProgramOutput given =
-      generate({"--samples", "10", "--srdf", folder.write("users.srdf", "<robot name=\"line--up\"/>")});
+      generate({"--samples", "100", "--srdf", folder.write("users.srdf", "<robot name=\"line--up\"/>")});
   EXPECT_EQ(1, given.exit_code);
   EXPECT_EQ(of_another, contentOf(out));
 }
@@ -435,7 +435,7 @@ TEST_F(GenerateAcm, WritesAGroupForTheChainFromTheRootToEachTip)
                                        jointXml("grip_left", "revolute", "wrist", "left", turn) +
                                        jointXml("grip_right", "revolute", "wrist", "right", turn) +
                                        jointXml("nail", "fixed", "foot", "sign") + "</robot>");
-  const ProgramOutput output = generate({"--samples", "10"});
+  const ProgramOutput output = generate({"--samples", "100"});
   ASSERT_EQ(0, output.exit_code);
   EXPECT_NE(std::string::npos, output.err.find("\nplanning groups: wrist, left, right\n")) << output.err;
   std::map<std::string, std::vector<std::string>> groups;
@@ -448,7 +448,7 @@ TEST_F(GenerateAcm, WritesAGroupForTheChainFromTheRootToEachTip)
 
   // The groups are the user's from then on.
   const std::string once = contentOf(out);
-  ASSERT_EQ(0, generate({"--samples", "10", "--srdf", out}).exit_code);
+  ASSERT_EQ(0, generate({"--samples", "100", "--srdf", out}).exit_code);
   EXPECT_EQ(once, contentOf(out));
 }
 
@@ -460,7 +460,7 @@ TEST_F(GenerateAcm, ErrorsHaveTheToolsExitCodes)
   EXPECT_EQ(2, generate({"--proof-tests", "many"}).exit_code);
   EXPECT_EQ(1, generate({"--srdf", folder.path("missing.srdf")}).exit_code);
   out = folder.path("no/such/folder.srdf");
-  EXPECT_EQ(1, generate({"--samples", "10"}).exit_code);
+  EXPECT_EQ(1, generate({"--samples", "100"}).exit_code);
 }
 
 struct RealRobot

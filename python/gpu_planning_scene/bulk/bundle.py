@@ -90,14 +90,13 @@ class _FoundFiles:
                      for uri, path in sorted(self._paths.items()))
 
 
-_filtering = threading.Lock()
+FILTERING = threading.Lock()  # the filters of warnings are those of the whole process
 
 
 @contextlib.contextmanager
 def _unpacked(files: Tuple[File, ...]) -> Iterator[Callable[[str], str]]:
     """A function from a URI to a path. The warnings of the files were shown when the bundle was made."""
-    # The filters are those of the whole process, so only one thread at a time may change and restore them.
-    with tempfile.TemporaryDirectory(prefix="gpu_planning_scene_") as folder, _filtering, warnings.catch_warnings():
+    with tempfile.TemporaryDirectory(prefix="gpu_planning_scene_") as folder, FILTERING, warnings.catch_warnings():
         warnings.simplefilter("ignore", UserWarning)
         paths = {}
         for i, file in enumerate(files):

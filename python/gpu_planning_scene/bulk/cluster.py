@@ -15,7 +15,7 @@ import distributed
 
 import gpu_planning_scene as gps
 from gpu_planning_scene.bulk import work
-from gpu_planning_scene.bulk.bundle import RobotBundle, SceneBundle
+from gpu_planning_scene.bulk.bundle import FILTERING, RobotBundle, SceneBundle
 from gpu_planning_scene.bulk.runner import Runner, Shard, WorkerLost
 from gpu_planning_scene.bulk.states import ArraySlice, first_line
 
@@ -92,12 +92,11 @@ def _same(bundle: Union[RobotBundle, SceneBundle]) -> Union[RobotBundle, SceneBu
 
 
 _heard = threading.local()
-_hearing = threading.Lock()
 
 
 def _hear_warnings() -> None:
     """Lets the warnings of each thread of this worker be collected in _heard.texts."""
-    with _hearing:
+    with FILTERING:
         show = warnings.showwarning
         if getattr(show, "is_hearing", False):
             return

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "base/text/number_text.h"
@@ -66,7 +67,7 @@ struct OccupancyMap::Impl
   std::vector<Vector3d> centresOf(const std::vector<Keyed>& some) const;
   std::vector<Voxel> takeKnown(std::vector<Hit>& hits, const Measurement& measurement, const Isometry3d& sensor,
                                const SensorView& view) const;
-  void keepNearest(const Vector3d& place, std::vector<Voxel>& some) const;
+  void keepNearest(const PlanningScene& scene, const double* state, std::vector<Voxel>& some) const;
 
   const OccupancyMapOptions options;
   const VoxelGrid grid;
@@ -186,20 +187,33 @@ std::size_t OccupancyMap::Impl::add(const Measurement& measurement, const Sensor
   std::inplace_merge(known.begin(), known.begin() + middle, known.end(), hasSmallerKey);
   const std::size_t without_room = known.size() - std::min(known.size(), options.max_voxels);
   if (without_room > 0)
-    keepNearest(sensor.translation(), known);
+    keepNearest(scene, state, known);
   voxels = std::move(known);
   return without_room;
 }
 
-/// Keeps as many voxels as the map may have: those nearest to `place`, in the order of their keys.
-void OccupancyMap::Impl::keepNearest(const Vector3d& place, std::vector<Voxel>& some) const
+/// Keeps as many voxels as the map may have: those nearest to the origins of the robot's links, in the order of their
+/// keys. So two sensors do not take each other's voxels away in turn.
+void OccupancyMap::Impl::keepNearest(const PlanningScene& scene, const double* state, std::vector<Voxel>& some) const
 {
-  const auto last = some.begin() + static_cast<std::ptrdiff_t>(options.max_voxels);
-  std::nth_element(some.begin(), last, some.end(),
-                   [&](const Voxel& a, const Voxel& b) {
-                     return (grid.centreOf(a.key) - place).squaredNorm() < (grid.centreOf(b.key) - place).squaredNorm();
-                   });
-  some.erase(last, some.end());
+  std::vector<Isometry3d> links(scene.robot->links().size());
+  scene.robot->linkPoses(state, links.data());
+  std::vector<std::pair<double, Voxel>> by_distance;
+  by_distance.reserve(some.size());
+  for (const Voxel& voxel : some)
+  {
+    const Vector3d centre = grid.centreOf(voxel.key);
+    double least = std::numeric_limits<double>::infinity();
+    for (const Isometry3d& link : links)
+      least = std::min(least, (link.translation() - centre).squaredNorm());
+    by_distance.emplace_back(least, voxel);
+  }
+  const auto last = by_distance.begin() + static_cast<std::ptrdiff_t>(options.max_voxels);
+  std::nth_element(by_distance.begin(), last, by_distance.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  some.clear();
+  for (auto kept = by_distance.begin(); kept != last; ++kept)
+    some.push_back(kept->second);
   std::sort(some.begin(), some.end(), hasSmallerKey);
 }
 

@@ -66,6 +66,8 @@ class ProofWorker
                                 std::shared_ptr<const CpuForest> forest, bool makes)
   {
     auto job = std::make_shared<ProofJob>();
+    if (getpid() != process_)
+      return job;                 // a forked child has no thread for it, so the exact checker decides all states
     std::vector<Task> abandoned;  // may hold the last references to large objects, so it ends after the lock
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -92,6 +94,8 @@ class ProofWorker
 
   void wait()
   {
+    if (getpid() != process_)
+      return;
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return tasks_.empty() && !busy_; });
   }

@@ -120,7 +120,10 @@ std::vector<ShapeContact> contactsOf(const ShapeInstance& a, const ShapeInstance
   bool are_all_here = true;
   const std::size_t most = std::min(max_contacts, core::kMaxOfPair);
   if (isFaulty(a) || isFaulty(b) || (!isSolid(a) && !isSolid(b)))
+  {
     contacts.push_back(contactWithoutDepth(a, b));
+    are_all_here = false;
+  }
   else if (isSolid(a))
     contacts = contactsOfSolid(a, b, most, scratch, are_all_here);
   else

@@ -15,7 +15,8 @@ namespace gpu_planning_scene::detector
 /// must not be 0. Normals point from `a` to `b`. Depths include the paddings. The contacts separate the two shapes, see
 /// core::contactsOf; each occupied leaf of an octree has its own contacts. If an instance is faulty, or neither is a
 /// solid, the only contact has no depth. At most 256 leaves of an octree have contacts, and each of them, or a pair of
-/// other shapes, at most core::kMaxOfPair. `are_all` becomes false where one of these limits is reached.
+/// other shapes, at most core::kMaxOfPair. `are_all` becomes false where one of these limits is reached, and if the
+/// contact has no depth.
 std::vector<core::ShapeContact> contactsOf(const ShapeInstance& a, const ShapeInstance& b, std::size_t max_contacts,
                                            PairScratch& scratch, bool* are_all = nullptr);
 

@@ -63,17 +63,23 @@ std::string BaseFromTf::frames() const
 
 AssumedBase BaseFromTf::thatOf(std::int64_t stamp)
 {
+  const auto find = [this, stamp]() -> std::optional<AssumedBase>
+  {
+    try
+    {
+      return valuesAt(*joint_, find_({root_, stamp}).pose);
+    }
+    catch (const tf2::TransformException&)
+    {
+      return std::nullopt;
+    }
+  };
+  if (const std::optional<AssumedBase> found = find())
+    return *found;
+  std::int64_t last = 0;  // the stamp of the newest transform
   try
   {
-    return valuesAt(*joint_, find_({root_, stamp}).pose);
-  }
-  catch (const tf2::TransformException&)
-  {
-  }
-  std::int64_t newest = 0;
-  try
-  {
-    newest = find_({root_, 0}).stamp;
+    last = find_({root_, 0}).stamp;
   }
   catch (const tf2::TransformException&)
   {
@@ -81,12 +87,15 @@ AssumedBase BaseFromTf::thatOf(std::int64_t stamp)
     if (!newest_)
       return {{}, "tf has no transform " + frames()};
   }
-  if (newest > stamp)
-    throw Error("the robot's pose of " + numberText(1e-9 * static_cast<double>(newest - stamp)) +
-                " s before the newest transform " + frames() + " is not available on tf");
-  throw NotKnownYet(
-      "tf has no transform " + frames() + " of the time of the measurement" +
-      (newest == 0 ? "" : "; its newest is " + numberText(1e-9 * static_cast<double>(stamp - newest)) + " s older"));
+  if (last <= stamp)
+    throw NotKnownYet(
+        "tf has no transform " + frames() + " of the time of the measurement" +
+        (last == 0 ? "" : "; its newest is " + numberText(1e-9 * static_cast<double>(stamp - last)) + " s older"));
+  // It may have come since the first lookup.
+  if (const std::optional<AssumedBase> found = find())
+    return *found;
+  throw Error("the robot's pose of " + numberText(1e-9 * static_cast<double>(last - stamp)) +
+              " s before the newest transform " + frames() + " is not available on tf");
 }
 
 AssumedBase BaseFromTf::newest()

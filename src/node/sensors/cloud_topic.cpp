@@ -17,10 +17,12 @@ constexpr std::chrono::milliseconds kNextTry{10};
 }  // namespace
 
 CloudTopic::CloudTopic(SceneStore& store, SceneStore::Lookup find_frame, double frame_timeout,
-                       const MemoryGuard& memory, const PointCloudOptions& options, std::string id)
+                       std::function<bool()> stopping, const MemoryGuard& memory, const PointCloudOptions& options,
+                       std::string id)
   : store_(store),
     find_frame_(std::move(find_frame)),
     frame_timeout_(frame_timeout),
+    stopping_(std::move(stopping)),
     memory_(memory),
     id_(std::move(id)),
     filter_(options)
@@ -37,7 +39,7 @@ MeasuredAt CloudTopic::waitFor(const std_msgs::Header& header) const
     }
     catch (const NotKnownYet&)
     {
-      if (secondsSince(begin) >= frame_timeout_)
+      if (stopping_() || secondsSince(begin) >= frame_timeout_)
         throw;
     }
 }

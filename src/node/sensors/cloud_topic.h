@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include <sensor_msgs/PointCloud2.h>
@@ -16,8 +17,9 @@ class CloudTopic
 {
  public:
   /// `find_frame`: see Sensors. `frame_timeout`: seconds that a cloud waits for its frame and for the robot's pose.
-  CloudTopic(SceneStore& store, SceneStore::Lookup find_frame, double frame_timeout, const MemoryGuard& memory,
-             const PointCloudOptions& options, std::string id);
+  /// `stopping`: when it returns true, the wait ends.
+  CloudTopic(SceneStore& store, SceneStore::Lookup find_frame, double frame_timeout, std::function<bool()> stopping,
+             const MemoryGuard& memory, const PointCloudOptions& options, std::string id);
 
   /// It may wait. If it throws Error, nothing has changed.
   void take(const sensor_msgs::PointCloud2& message);
@@ -28,6 +30,7 @@ class CloudTopic
   SceneStore& store_;
   const SceneStore::Lookup find_frame_;
   const double frame_timeout_;
+  const std::function<bool()> stopping_;
   const MemoryGuard& memory_;
   const std::string id_;
   PointCloudFilter filter_;

@@ -50,7 +50,7 @@ void SensedMap::add(const Measurement& measurement, const SensorView& view, cons
   publish();
   if (without_room > 0)
     throw Error(std::to_string(without_room) +
-                " voxels are not in the scene, the farthest from the sensor, because ~limits/voxels is reached; use "
+                " voxels are not in the scene, the farthest from the robot, because ~limits/voxels is reached; use "
                 "larger voxels (~octomap_resolution), a shorter range or a region");
 }
 
@@ -99,10 +99,10 @@ void SensedMap::followObjects(const PlanningScene& scene, const std::vector<doub
 /// Puts the voxels into the scene. Returns the scene's revision. mutex_ is held.
 std::uint64_t SensedMap::publish()
 {
+  hides_voxels_ = true;  // until the scene has the voxels: an error must not end the tries
   const Snapshot now = store_.snapshot();
   std::vector<PlacedShape> cubes = map_.cubes(*now.scene, now.state.data());
   const bool hides_voxels = cubes.size() < map_.size();
-  hides_voxels_ = true;  // until the scene has the voxels: an error must not end the tries
   replaceObject(store_, kOctomapId, std::move(cubes));
   hides_voxels_ = hides_voxels;
   return store_.snapshot().scene->revision;

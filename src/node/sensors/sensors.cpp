@@ -191,7 +191,9 @@ void Sensors::use(const Sensor& sensor)
   }
   if (options.sendsImages() && !camera)
     throw Error("there is no message on " + options.camera_info_topic + " yet");
-  if (const double age = header.stamp.isZero() ? 0.0 : ageOf(header); age < -kLargestAdvance)
+  // When it came: a measurement that waits for tf grows older.
+  const double waited = (ros::SteadyTime::now() - sensor.current->received).toSec();
+  if (const double age = header.stamp.isZero() ? 0.0 : ageOf(header) - waited; age < -kLargestAdvance)
     throw Error("the stamp is " + numberText(-age) + " s in the future; synchronise the clocks");
   else if (age > kLargestAge)
     throw Error("the stamp is " + numberText(age) +
@@ -230,15 +232,18 @@ void Sensors::publishStatus()
 {
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();
+  std::vector<std::string> silences;
   {
     const std::lock_guard<std::mutex> lock(waiting_mutex_);
     for (const std::unique_ptr<Sensor>& sensor : sensors_)
     {
       message.status.push_back(sensor->record.status(sensor->options.topic));
-      if (const std::string silence = sensor->record.silence(sensor->options.topic); !silence.empty())
-        ROS_WARN_STREAM(silence);
+      silences.push_back(sensor->record.silence(sensor->options.topic));
     }
   }
+  for (const std::string& silence : silences)
+    if (!silence.empty())
+      ROS_WARN_STREAM(silence);
   diagnostics_publisher_.publish(message);
 }
 }  // namespace gpu_planning_scene::core

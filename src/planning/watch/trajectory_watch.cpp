@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <string>
 
@@ -87,22 +88,26 @@ Place placeOf(const std::vector<double>& seconds, double time)
   return {part, std::clamp((time - seconds[part]) / (seconds[part + 1] - seconds[part]), 0.0, 1.0)};
 }
 
-/// Whether a robot that is not quite at `end` of its part, from `place` on, is on the next part already: a controller
-/// cuts turns short. `values`: of the robot.
+/// Whether a robot that is not quite at the turns after `place` is already past them: a controller cuts turns short.
+/// `values`: of the robot. `part`: the end of the part that contains `place`.
 bool hasTurned(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
-               double place, double end)
+               double place, std::vector<double>::const_iterator part)
 {
   const std::vector<double>& seconds = trajectory.rows.seconds;
-  const auto after = std::upper_bound(seconds.begin(), seconds.end(), end);
-  const std::vector<double> corner = rowAt(robot, trajectory, end);
-  if (after == seconds.end() || deviationAt(robot, trajectory, corner, place) > kCutTurn)
-    return false;
   const Differences difference(robot, trajectory);
-  const std::vector<double> along = difference(corner, rowAt(robot, trajectory, *after));
-  const double squared = product(along, along);
-  const double share = squared > 0.0 ? product(difference(corner, values), along) / squared : 0.0;
-  return deviationAt(robot, trajectory, values, end + std::clamp(share, 0.0, 1.0) * (*after - end)) <
-         deviationAt(robot, trajectory, values, place);
+  const double deviation = deviationAt(robot, trajectory, values, place);
+  for (auto next = std::next(part); next != seconds.end(); ++part, ++next)
+  {
+    const std::vector<double> corner = rowAt(robot, trajectory, *part);
+    if (deviationAt(robot, trajectory, corner, place) > kCutTurn)
+      return false;
+    const std::vector<double> along = difference(corner, rowAt(robot, trajectory, *next));
+    const double squared = product(along, along);
+    const double share = squared > 0.0 ? product(difference(corner, values), along) / squared : 0.0;
+    if (deviationAt(robot, trajectory, values, *part + std::clamp(share, 0.0, 1.0) * (*next - *part)) < deviation)
+      return true;
+  }
+  return false;
 }
 }  // namespace
 
@@ -168,7 +173,7 @@ Progress progressFrom(const RobotModel& robot, const WatchedTrajectory& trajecto
     const double squared = product(along, along);
     const double share = squared > 0.0 ? product(difference(row, values), along) / squared : 1.0;
     const double place = time + std::clamp(share, 0.0, 1.0) * (*next - time);
-    if (share < 1.0 && !hasTurned(robot, trajectory, values, place, *next))
+    if (share < 1.0 && !hasTurned(robot, trajectory, values, place, next))
     {
       time = place;
       break;

@@ -235,6 +235,9 @@ TEST(ProgressFrom, ATurningPointThatTheRobotDoesNotQuiteReachIsPassedOnTheWayBac
   expectProgress(progressOn(rows, 0.995, 0.9), 0.995, 0.0);
   expectProgress(progressOn(rows, 0.95, 0.995), 1.05, 0.0);
   expectProgress(progressOn(rows, 0.95, 0.98), 0.98, 0.03);  // too far from the turning point
+  // The same with dense points before the turning point, and with a stop there.
+  expectProgress(progressOn({{0.0, 0.99, 0.995, 1.0, 2.0}, {0.0, 0.99, 0.995, 1.0, 0.0}}, 0.95, 0.991), 1.05, 0.0);
+  expectProgress(progressOn({{0.0, 1.0, 5.0, 6.0}, {0.0, 1.0, 1.0, 0.0}}, 0.95, 0.996), 5.05, 0.0);
 }
 
 TEST(ProgressFrom, ARobotThatStandsAtTheStartOfALoopStaysThere)
