@@ -325,7 +325,8 @@ TEST_F(Detector, AsksTheDeciderOfEachContactOfAPair)
 TEST_F(Detector, APairWithContactsThatAreNotComputedCollidesWhateverTheDeciderSays)
 {
   AllowedCollisionMatrix matrix;
-  matrix.setEntry("<octomap>", "cart", [](Contact&) { return true; });
+  const collision_detection::DecideContactFn accept = [](Contact&) { return true; };
+  matrix.setEntry("<octomap>", "cart", accept);
   const auto octree = std::make_shared<octomap::OcTree>(0.02);
   octree->updateNode(octomap::point3d(0.01F, 0.01F, 0.01F), true);
   add("<octomap>", std::make_shared<shapes::OcTree>(octree), Isometry3d::Identity());
