@@ -127,11 +127,10 @@ class SlowAtFirst : public core::CpuChecker
   {
   }
 
-  core::BatchResult check(const double* states, std::size_t count, const std::string& group,
-                          const core::JointNeighbourhood* around) override
+  core::BatchResult checkBatch(const core::StateBatch& batch) override
   {
     std::this_thread::sleep_for(std::exchange(preparation_, std::chrono::milliseconds(0)));
-    return CpuChecker::check(states, count, group, around);
+    return CpuChecker::checkBatch(batch);
   }
 
  private:
@@ -153,11 +152,10 @@ class Counting : public core::CpuChecker
   {
   }
 
-  core::BatchResult check(const double* states, std::size_t count, const std::string& group,
-                          const core::JointNeighbourhood* around) override
+  core::BatchResult checkBatch(const core::StateBatch& batch) override
   {
-    ++(around ? counts_.around : counts_.plain);
-    return CpuChecker::check(states, count, group, around);
+    ++(batch.around ? counts_.around : counts_.plain);
+    return CpuChecker::checkBatch(batch);
   }
 
  private:
