@@ -35,9 +35,8 @@ std::string LeaderScene::changeFault() const
 /// While the scene is known, only the revisions are compared.
 GetPlanningScene::Request LeaderScene::request()
 {
-  constexpr std::uint32_t kWhole = 2 * kForFollowers - 1;
   GetPlanningScene::Request asked;
-  asked.components.components = isCurrent() ? PlanningSceneComponents::SCENE_SETTINGS + 0U : kWhole;
+  asked.components.components = isCurrent() ? PlanningSceneComponents::SCENE_SETTINGS + 0U : kWholeForFollowers;
   return asked;
 }
 

@@ -15,6 +15,8 @@ namespace gpu_planning_scene::core
 
 /// In PlanningSceneComponents::components: the fields for followers are wanted.
 constexpr std::uint32_t kForFollowers = 1024;
+/// All components, as followers get them.
+constexpr std::uint32_t kWholeForFollowers = 2 * kForFollowers - 1;
 
 /// Fills the two fields. `message`: made of `change` by messageOf().
 void keepExactNumbers(const SceneChange& change, const RobotModel& robot, PlanningSceneMessage& message);

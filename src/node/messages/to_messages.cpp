@@ -227,11 +227,17 @@ SceneChange changeOf(const PlanningScene& scene, std::uint32_t components)
   if (wanted(Components::OBJECT_COLORS))
     change.colors = full.colors;
   if (wanted(Components::LINK_PADDING_AND_SCALING))
-  {
-    // Also of links without shapes, which may carry objects: the receiver may have other defaults.
-    change.link_padding = full.link_padding;
-    change.link_scale = full.link_scale;
-  }
+    for (const Link& link : robot.links())
+    {
+      const double padding = full.link_padding.at(link.name);
+      const double scale = full.link_scale.at(link.name);
+      // As in MoveIt, links without shapes are left out. Followers get them all: such a link may carry objects, and the
+      // follower may have other defaults.
+      if (link.shapes.empty() && padding == 0.0 && scale == 1.0 && (components & kForFollowers) == 0)
+        continue;
+      change.link_padding[link.name] = padding;
+      change.link_scale[link.name] = scale;
+    }
   for (const auto& [id, rule] : full.solids)
     if (wanted(robot.linkIndex(id) >= 0 || !scene.findAttached(id) ? Components::WORLD_OBJECT_GEOMETRY
                                                                    : Components::ROBOT_STATE_ATTACHED_OBJECTS))
@@ -307,7 +313,7 @@ PlanningSceneMessage messageOf(const SceneChange& change, const RobotModel& robo
 SceneChange componentsOf(const PlanningScene& scene, std::uint32_t components, const std::vector<double>& state,
                          const std::vector<bool>& known)
 {
-  const std::uint32_t wanted = components == 0 ? ~0U : components;
+  const std::uint32_t wanted = components == 0 ? kForFollowers - 1 : components;
   SceneChange change = changeOf(scene, wanted);
   if ((wanted & PlanningSceneComponents::ROBOT_STATE) != 0)
     for (std::size_t i = 0; i < state.size(); ++i)

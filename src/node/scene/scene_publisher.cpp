@@ -45,7 +45,7 @@ void ScenePublisher::changed(const std::shared_ptr<const PlanningScene>& before,
       change.state.variables =
           componentsOf(*after, PlanningSceneComponents::ROBOT_STATE, now.state, now.known).state.variables;
     else  // diffOf() leaves out the robot's own matrix
-      change = componentsOf(*after, 0, now.state, now.known);
+      change = componentsOf(*after, kWholeForFollowers, now.state, now.known);
     PlanningSceneMessage message = messageOf(change, *after->robot);
     message.scene_revision = after->revision;
     message.previous_revision = before->revision;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "model/model_testing.h"
+#include "node/messages/exact_numbers.h"
 #include "node/messages/from_messages.h"
 #include "node/messages/to_messages.h"
 #include "scene/change_testing.h"
@@ -576,6 +577,9 @@ TEST_F(Messages, OnlyTheRequestedComponentsAreThere)
   message = get(Components::ALLOWED_COLLISION_MATRIX);
   EXPECT_EQ(2u, message.allowed_collision_matrix.entry_names.size());
   message = get(Components::LINK_PADDING_AND_SCALING);
+  ASSERT_EQ(2u, message.link_padding.size()) << "the links with shapes";
+  EXPECT_EQ(2u, message.link_scale.size());
+  message = get(Components::LINK_PADDING_AND_SCALING | kForFollowers);
   ASSERT_EQ(scene_.robot->links().size(), message.link_padding.size())
       << "also links without shapes, which may carry objects";
   EXPECT_EQ(scene_.robot->links().size(), message.link_scale.size());
