@@ -359,9 +359,9 @@ TEST_F(Detector, FollowsDefaultEntriesOfTheMatrix)
 
 TEST_F(Detector, CountsAShapeThatCannotBeCheckedAsColliding)
 {
-  add("negative", std::make_shared<shapes::Box>(0.1, 0.1, -0.1), at(5, 0, 0));
+  add("unknown", std::make_shared<shapes::Box>(0.1, 0.1, std::numeric_limits<double>::quiet_NaN()), at(5, 0, 0));
   EXPECT_TRUE(collides());
-  env_->getWorld()->removeObject("negative");
+  env_->getWorld()->removeObject("unknown");
   auto mesh = std::make_shared<shapes::Mesh>(3, 1);
   std::fill_n(mesh->vertices, 9, std::numeric_limits<double>::quiet_NaN());
   std::fill_n(mesh->triangles, 3, 0U);
