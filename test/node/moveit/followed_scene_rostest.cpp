@@ -47,7 +47,7 @@ class Following : public testing::Test
   std::optional<moveit_msgs::PlanningScene> nodeScene() const
   {
     GetPlanningScene call;
-    if (!callPersistently(node_->service("get_planning_scene"), call))
+    if (!callPersistently(node_->service("get_planning_scene"), call) || !call.response.success)
       return std::nullopt;
     return asMoveItMessage(call.response.scene);
   }
