@@ -1,5 +1,6 @@
 #include "node/messages/exact_numbers.h"
 
+#include <cstdint>
 #include <cstring>
 #include <vector>
 
@@ -72,9 +73,17 @@ class Numbers
   }
 };
 
+std::uint64_t bitsOf(double value)
+{
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
+/// Unlike ==, it distinguishes 0 and -0.
 bool hasSameBits(double a, double b)
 {
-  return std::memcmp(&a, &b, sizeof(double)) == 0;
+  return bitsOf(a) == bitsOf(b);
 }
 }  // namespace
 
