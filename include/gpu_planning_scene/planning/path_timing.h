@@ -24,7 +24,8 @@ struct PathTimingOptions
   /// more than they allow.
   double max_deviation = 0.05;
   MotionCheckerOptions motions;  ///< the rule by which blends are valid
-  /// Those that the path fulfils. If there are any, max_deviation counts as 0, because a blend could leave them.
+  /// The constraints that the path fulfils. With constraints, max_deviation counts as 0, because a blend could leave
+  /// them.
   KinematicConstraints path_constraints = {};
 };
 

@@ -89,22 +89,22 @@ Place placeOf(const std::vector<double>& seconds, double time)
 }
 
 /// Whether a robot that is not quite at the turns after `place` is already past them: a controller cuts turns short.
-/// `values`: of the robot. `part`: the end of the part that contains `place`.
+/// `values`: of the robot. `turn`: the time of the first row after `place`.
 bool hasTurned(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
-               double place, std::vector<double>::const_iterator part)
+               double place, std::vector<double>::const_iterator turn)
 {
   const std::vector<double>& seconds = trajectory.rows.seconds;
   const Differences difference(robot, trajectory);
   const double deviation = deviationAt(robot, trajectory, values, place);
-  for (auto next = std::next(part); next != seconds.end(); ++part, ++next)
+  for (auto next = std::next(turn); next != seconds.end(); ++turn, ++next)
   {
-    const std::vector<double> corner = rowAt(robot, trajectory, *part);
+    const std::vector<double> corner = rowAt(robot, trajectory, *turn);
     if (deviationAt(robot, trajectory, corner, place) > kCutTurn)
       return false;
     const std::vector<double> along = difference(corner, rowAt(robot, trajectory, *next));
     const double squared = product(along, along);
     const double share = squared > 0.0 ? product(difference(corner, values), along) / squared : 0.0;
-    if (deviationAt(robot, trajectory, values, *part + std::clamp(share, 0.0, 1.0) * (*next - *part)) < deviation)
+    if (deviationAt(robot, trajectory, values, *turn + std::clamp(share, 0.0, 1.0) * (*next - *turn)) < deviation)
       return true;
   }
   return false;
