@@ -67,8 +67,6 @@ struct StateBatch
   std::size_t count;
   std::string group = {};                      ///< see StateChecker::check
   const JointNeighbourhood* around = nullptr;  ///< see StateChecker::check
-  /// Keeps the states alive. Null: the states need not live longer than the check, so it copies them for devices.
-  std::shared_ptr<const void> owner = nullptr;
   /// In batches of more than a few hundred states, called on the caller's thread about every 20 ms with the number of
   /// states that have been answered. If it returns false, the check soon throws Cancelled. What it throws ends the
   /// check too. It must not use the checker.

@@ -84,6 +84,15 @@ void Buffer::write(const void* data, std::size_t size, std::size_t offset)
   checkGl("an upload");
 }
 
+void Buffer::write(std::size_t size, std::size_t offset, const std::function<void(void* to)>& fill)
+{
+  if (size == 0)
+    return;
+  waitForShaders();
+  StagingRing::ofThisThread().upload(id_, offset, size, fill);
+  checkGl("an upload");
+}
+
 void Buffer::read(void* data, std::size_t size, std::size_t offset) const
 {
   if (size == 0)

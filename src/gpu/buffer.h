@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -29,6 +30,8 @@ class Buffer
   /// grows, unless this would exceed `max_bytes` or maxBytes().
   void reserve(std::size_t size, std::size_t max_bytes = std::numeric_limits<std::size_t>::max());
   void write(const void* data, std::size_t size, std::size_t offset = 0);
+  /// `fill` writes the `size` bytes, at most StagingRing::kLargestPieceBytes.
+  void write(std::size_t size, std::size_t offset, const std::function<void(void* to)>& fill);
   void read(void* data, std::size_t size, std::size_t offset = 0) const;
   void clear();                                                              ///< fills the buffer with zeros
   void clear(std::size_t offset, std::size_t size, std::uint32_t word = 0);  ///< fills a part with copies of a word

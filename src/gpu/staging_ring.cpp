@@ -30,12 +30,18 @@ void StagingRing::upload(std::uint32_t buffer, std::size_t offset, const void* d
   for (std::size_t done = 0; done < size;)
   {
     const std::size_t bytes = std::min(size - done, kLargestPieceBytes);
-    const std::size_t at = place(bytes);
-    std::memcpy(memory_ + at, from + done, bytes);
-    glCopyNamedBufferSubData(id_, buffer, static_cast<GLintptr>(at), static_cast<GLintptr>(offset + done),
-                             static_cast<GLsizeiptr>(bytes));
+    upload(buffer, offset + done, bytes, [&](void* to) { std::memcpy(to, from + done, bytes); });
     done += bytes;
   }
+}
+
+void StagingRing::upload(std::uint32_t buffer, std::size_t offset, std::size_t size,
+                         const std::function<void(void* to)>& fill)
+{
+  const std::size_t at = place(size);
+  fill(memory_ + at);
+  glCopyNamedBufferSubData(id_, buffer, static_cast<GLintptr>(at), static_cast<GLintptr>(offset),
+                           static_cast<GLsizeiptr>(size));
 }
 
 /// Returns the offset of `size` free bytes, which the next copy reads.

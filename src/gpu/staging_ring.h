@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 
 #include "gpu/fence.h"
 
@@ -28,6 +29,10 @@ class StagingRing
   /// soon as the function returns. It waits only if the device has not yet executed the last kPieces uploads of the
   /// size of a piece. Throws OutOfDeviceMemory or DeviceLost.
   void upload(std::uint32_t buffer, std::size_t offset, const void* data, std::size_t size);
+
+  /// The same for data that `fill` writes: `size` bytes, at most kLargestPieceBytes. It must not read them: this memory
+  /// may be slow to read.
+  void upload(std::uint32_t buffer, std::size_t offset, std::size_t size, const std::function<void(void* to)>& fill);
 
   /// Frees the memory. Must be called before the context is destroyed.
   void release();

@@ -216,7 +216,6 @@ BatchResult CheckWorker::checkStates(const std::shared_ptr<const std::vector<dou
                                      const std::string& group)
 {
   StateBatch batch{states->data(), count, group};
-  batch.owner = states;
   batch.go_on = [this](std::size_t) { return !queue_.isStopping(); };
   try
   {

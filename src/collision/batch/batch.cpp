@@ -221,6 +221,29 @@ DevicePace Batch::paceOf(std::size_t device) const
   return {};
 }
 
+void Batch::copyForDevice(const StateRange& states, std::size_t width, double* to)
+{
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (closed_)
+    {
+      std::fill_n(to, states.count * width, 0.0);
+      return;
+    }
+    ++using_;
+  }
+  rows_->copy(states, to);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  endUse();
+}
+
+void Batch::endUse()
+{
+  --using_;
+  if (closed_)
+    changed_.notify_all();
+}
+
 StateRange Batch::beginAnswer(std::size_t device, const StateRange& states)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -237,7 +260,7 @@ StateRange Batch::beginAnswer(std::size_t device, const StateRange& states)
   if (part->range.begin >= part->open_end)
     at_devices_.erase(part);
   if (own.count != 0)
-    ++writing_;
+    ++using_;
   return own;
 }
 
@@ -255,18 +278,17 @@ void Batch::endAnswer(const StateRange& states, const std::vector<std::size_t>& 
     ++open_count;
     addRow(row, open);
   };
-  const auto is_only_for_cores = [this](std::size_t row)
-  { return !rows_.only_cores.empty() && rows_.only_cores[row] != 0; };
+  const bool have_only_for_cores = rows_->haveOnlyForCores();
   try
   {
     for (const std::size_t row : undecided)
-      if (!is_only_for_cores(row))
+      if (!rows_->isOnlyForCores(row))
       {
         reopen(row);
         ++by_choice;
       }
-    for (std::size_t row = states.begin; row < states.end() && !rows_.only_cores.empty(); ++row)
-      if (is_only_for_cores(row))
+    for (std::size_t row = states.begin; row < states.end() && have_only_for_cores; ++row)
+      if (rows_->isOnlyForCores(row))
         reopen(row);
   }
   catch (...)
@@ -288,8 +310,15 @@ void Batch::endAnswer(const StateRange& states, const std::vector<std::size_t>& 
   result_.undecided_states += by_choice;
   answered_ += states.count - open_count;
   answered_by_devices_ += states.count - open_count;
-  --writing_;
+  endUse();
   changed_.notify_all();
+}
+
+void Batch::failAnswer(std::exception_ptr error)
+{
+  const std::lock_guard<std::mutex> lock(mutex_);
+  end(std::move(error));
+  endUse();
 }
 
 void Batch::add(const GpuWork& work)
@@ -321,7 +350,7 @@ void Batch::close()
   std::unique_lock<std::mutex> lock(mutex_);
   closed_ = true;
   changed_.notify_all();
-  changed_.wait(lock, [this] { return writing_ == 0; });
+  changed_.wait(lock, [this] { return using_ == 0; });
 }
 
 void Batch::end(std::exception_ptr error)

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
@@ -59,9 +60,10 @@ class Batch
   std::size_t availableForCores() const;
 
   // For devices, which have numbers.
-  /// Must be called before a device joins, once.
-  void setDeviceRows(DeviceRows rows) { rows_ = std::move(rows); }
-  const DeviceRows& deviceRows() const { return rows_; }
+  /// Must be called before a device joins, once. What the rows refer to must live until the batch is closed.
+  void setDeviceRows(std::unique_ptr<DeviceRows> rows) { rows_ = std::move(rows); }
+  /// Copies states of a part for a device, see DeviceRows; zeros if the batch is closed: the states may be gone then.
+  void copyForDevice(const StateRange& states, std::size_t width, double* to);
   /// No part goes to a device that has not joined, or has left.
   void join(std::size_t device);
   bool hasJoined(std::size_t device) const;
@@ -77,6 +79,8 @@ class Batch
   /// The states of beginAnswer are answered, except for `undecided` ones and those that only cores can check. Cores
   /// then check these.
   void endAnswer(const StateRange& states, const std::vector<std::size_t>& undecided);
+  /// The states of beginAnswer have no answers, because of an error. The batch fails.
+  void failAnswer(std::exception_ptr error);
   void add(const GpuWork& work);
   /// The work of all devices.
   GpuWork work() const;
@@ -87,7 +91,7 @@ class Batch
   /// The work and the time of the device up to now.
   DevicePace paceOf(std::size_t device) const;
   bool isComplete() const { return answeredCount() == count(); }
-  /// Ends the batch: no further part is taken, and no device writes answers. Waits for devices that are writing.
+  /// Ends the batch: no further part is taken, and no device reads states or writes answers. Waits for devices that do.
   void close();
   /// Closes the batch because of an error. The first error counts.
   void fail(std::exception_ptr error);
@@ -120,12 +124,13 @@ class Batch
   StateRange overtake(std::size_t most);
   void returnParts(std::size_t device);
   void end(std::exception_ptr error);
+  void endUse();
   void noteBrought(std::size_t device, std::size_t states);
 
   const std::size_t count_;
   const std::optional<Margins> margins_;
   const std::size_t cores_;
-  DeviceRows rows_;
+  std::unique_ptr<DeviceRows> rows_;
   BatchResult result_;
 
   mutable std::mutex mutex_;  // guards the members below
@@ -139,7 +144,7 @@ class Batch
   std::vector<Timing> timings_;
   std::size_t answered_ = 0;
   std::size_t answered_by_devices_ = 0;
-  std::size_t writing_ = 0;  // devices between beginAnswer and endAnswer
+  std::size_t using_ = 0;  // devices that read states, or that are between beginAnswer and endAnswer
   bool cores_help_ = true;
   bool closed_ = false;
   std::exception_ptr error_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -21,11 +22,11 @@ class DeviceParts
   }
   virtual ~DeviceParts() = default;
 
-  const double* states() const { return batch_->deviceRows().states; }
   const Margins* margins() const { return batch_->margins(); }
   BatchResult& result() { return batch_->result(); }
 
   /// See Batch.
+  void copy(const StateRange& states, std::size_t width, double* to) { batch_->copyForDevice(states, width, to); }
   virtual StateRange take(std::size_t most)
   {
     progress_();
@@ -40,6 +41,7 @@ class DeviceParts
   {
     batch_->endAnswer(states, undecided);
   }
+  void failAnswer(std::exception_ptr error) { batch_->failAnswer(std::move(error)); }
   void add(const GpuWork& work) { batch_->add(work); }
   void giveBack() { batch_->giveBack(device_); }
   void leave() { batch_->leave(device_); }

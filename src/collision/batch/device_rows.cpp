@@ -4,35 +4,45 @@
 #include <utility>
 
 #include "collision/gpu/problem/placeable_states.h"
-#include "collision/problem/rows_without.h"
 
 namespace gpu_planning_scene::core
 {
-DeviceRows rowsForDevices(const StateBatch& asked, const Margins* margins, const RobotModel& robot,
-                          const CollisionProblem& problem)
+DeviceRows::DeviceRows(const double* states, std::size_t count, std::size_t width,
+                       std::function<bool(std::size_t row)> suits_devices)
+  : states_(states), width_(width), suits_devices_(std::move(suits_devices)), only_cores_(count, 0)
+{
+}
+
+void DeviceRows::copy(const StateRange& states, double* to)
+{
+  const double* substitute = nullptr;
+  for (std::size_t row = states.begin; row < states.end(); ++row, to += width_)
+  {
+    const bool suits = suits_devices_(row);
+    if (suits)
+      substitute = states_ + row * width_;
+    else
+    {
+      only_cores_[row] = 1;
+      have_only_for_cores_ = true;
+    }
+    if (substitute)
+      std::copy_n(substitute, width_, to);
+    else
+      std::fill_n(to, width_, 0.0);
+  }
+}
+
+std::unique_ptr<DeviceRows> rowsForDevices(const StateBatch& asked, const Margins* margins, const RobotModel& robot,
+                                           const CollisionProblem& problem)
 {
   const std::size_t width = robot.variables().size();
-  const PlaceableStates placeable(robot);
-  const auto suits_devices = [&](std::size_t row)
+  const auto suits_devices = [states = asked.states, width, margins, &problem,
+                              placeable = PlaceableStates(robot)](std::size_t row)
   {
-    const double* const state = asked.states + row * width;
+    const double* const state = states + row * width;
     return (margins ? margins->within[row] != 0 : isValidFor(problem, state)) && placeable.contains(state);
   };
-  const std::vector<std::size_t> unsuitable = rowsWithout(asked.count, suits_devices);
-  if (unsuitable.size() == asked.count)
-    return {};
-  if (unsuitable.empty() && asked.owner)
-    return {asked.owner, asked.states};
-  const auto copy = std::make_shared<std::vector<double>>(asked.states, asked.states + asked.count * width);
-  DeviceRows rows{copy, copy->data()};
-  if (unsuitable.empty())
-    return rows;
-  rows.only_cores.assign(asked.count, 0);
-  for (const std::size_t row : unsuitable)
-    rows.only_cores[row] = 1;
-  const auto substitute = std::find(rows.only_cores.begin(), rows.only_cores.end(), 0) - rows.only_cores.begin();
-  for (const std::size_t row : unsuitable)
-    std::copy_n(asked.states + static_cast<std::size_t>(substitute) * width, width, copy->data() + row * width);
-  return rows;
+  return std::make_unique<DeviceRows>(asked.states, asked.count, width, suits_devices);
 }
 }  // namespace gpu_planning_scene::core

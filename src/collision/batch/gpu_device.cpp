@@ -13,25 +13,35 @@ namespace
 class GpuParts : public PartSource
 {
  public:
-  GpuParts(const GpuChecker& checker, DeviceParts& parts) : checker_(checker), parts_(parts) {}
+  GpuParts(const GpuChecker& checker, DeviceParts& parts, std::size_t width)
+    : checker_(checker), parts_(parts), width_(width)
+  {
+  }
 
   StateRange take(std::size_t most) override { return parts_.take(most); }
+  void copy(const StateRange& states, double* to) override { parts_.copy(states, width_, to); }
   void bring(const StateRange& brought, const std::uint32_t* verdicts, const GpuWork& work) override
   {
     parts_.add(work);  // before the batch may end
-    undecided_.clear();
-    undecided_.reserve(brought.count);  // now, because nothing may fail after beginAnswer
     const StateRange states = parts_.beginAnswer(brought);
     if (states.count == 0)
       return;
-    checker_.write(states, verdicts, parts_.result(), undecided_);
-    parts_.endAnswer(states, undecided_);
+    std::vector<std::size_t> undecided;
+    try
+    {
+      undecided = checker_.write(states, verdicts, parts_.result());
+    }
+    catch (const std::exception&)  // no memory
+    {
+      return parts_.failAnswer(std::current_exception());
+    }
+    parts_.endAnswer(states, undecided);
   }
 
  private:
   const GpuChecker& checker_;
   DeviceParts& parts_;
-  std::vector<std::size_t> undecided_;
+  const std::size_t width_;  // variables of a state
 };
 
 class GpuDevice : public BatchDevice
@@ -46,6 +56,7 @@ class GpuDevice : public BatchDevice
       scene_.reset();
       checker_.setProblem(task.scene, task.robot);
       scene_ = group_ = task.scene;
+      width_ = task.robot->variables().size();
     }
     if (task.group != group_)
     {
@@ -58,8 +69,8 @@ class GpuDevice : public BatchDevice
 
   void check(DeviceParts& parts) override
   {
-    GpuParts source(checker_, parts);
-    checker_.check(parts.states(), source, parts.margins());
+    GpuParts source(checker_, parts, width_);
+    checker_.check(source, parts.margins());
   }
 
   std::string name() const override { return checker_.device().renderer; }
@@ -70,6 +81,7 @@ class GpuDevice : public BatchDevice
   GpuChecker checker_;
   std::shared_ptr<const CollisionProblem> scene_;  // what the checker holds; null: unknown
   std::shared_ptr<const CollisionProblem> group_;
+  std::size_t width_ = 0;  // variables of the robot
 };
 }  // namespace
 

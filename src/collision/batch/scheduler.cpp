@@ -67,16 +67,14 @@ class Scheduler::DeviceJoin
   {
     DevicePool& devices = scheduler_.devices_;
     devices.abandonOverdue();
-    if (is_useless_ || !devices.suits(asked_.group, batch_->waitingCount()))
+    if (!devices.suits(asked_.group, batch_->waitingCount()))
       return;
     if (!task_.robot)
     {
       task_ = scheduler_.taskOf(asked_.group);
-      DeviceRows rows = rowsForDevices(asked_, batch_->margins(), *task_.robot, *task_.group);
-      is_useless_ = !rows.states;
-      batch_->setDeviceRows(std::move(rows));
+      batch_->setDeviceRows(rowsForDevices(asked_, batch_->margins(), *task_.robot, *task_.group));
     }
-    if (!is_useless_ && devices.join(batch_, task_, asked_.group))
+    if (devices.join(batch_, task_, asked_.group))
       has_joined_ = true;
   }
 
@@ -87,7 +85,6 @@ class Scheduler::DeviceJoin
   const StateBatch& asked_;
   const std::shared_ptr<Batch> batch_;
   DeviceTask task_;
-  bool is_useless_ = false;  // devices can check none of the states
   bool has_joined_ = false;
 };
 

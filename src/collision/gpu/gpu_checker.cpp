@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <future>
+#include <stdexcept>
 #include <utility>
 
 #include "base/parallel_for.h"
@@ -197,16 +198,45 @@ void GpuChecker::requireUsableScene() const
     throw DeviceLost("the GPU failed while its scene was being changed and holds no usable scene");
 }
 
-void GpuChecker::check(const double* states, PartSource& parts, const Margins* margins)
+namespace
+{
+/// The poses of the states of parts, which the CPU computes.
+class PosesOfParts : public PoseSource
+{
+ public:
+  PosesOfParts(const CollisionProblem& problem, const RobotModel& robot, PartSource& parts)
+    : robot_(robot), parts_(parts), poses_(problem, robot.links().size(), link_poses_)
+  {
+  }
+
+  void begin(std::size_t begin, std::size_t count) override
+  {
+    begin_ = begin;
+    states_.resize(count * robot_.variables().size());
+    parts_.copy({begin, count}, states_.data());
+    poses_.begin(begin, count);
+  }
+  void place(TexelBuffer& poses) override { poses_.place(poses); }
+
+ private:
+  const RobotModel& robot_;
+  PartSource& parts_;
+  std::size_t begin_ = 0;
+  std::vector<double> states_;  // of the part
+  const UploadedPoses::LinkPoses link_poses_ = [this](std::size_t row, Eigen::Isometry3d* poses)
+  { robot_.linkPoses(&states_[(row - begin_) * robot_.variables().size()], poses); };
+  UploadedPoses poses_;
+};
+}  // namespace
+
+void GpuChecker::check(PartSource& parts, const Margins* margins)
 {
   if (placesLinks())
   {
-    kinematics_->setStates(states);
+    kinematics_->setStates([&parts](const StateRange& states, double* to) { parts.copy(states, to); });
     return check(*kinematics_, parts, margins);
   }
-  const LinkPoses link_poses = [&](std::size_t row, Eigen::Isometry3d* poses)
-  { robot_->linkPoses(states + row * robot_->variables().size(), poses); };
-  UploadedPoses poses(*problem_, robot_->links().size(), link_poses);
+  PosesOfParts poses(*problem_, *robot_, parts);
   check(poses, parts, margins);
 }
 
@@ -225,17 +255,23 @@ BodyPair GpuChecker::bodiesOf(std::uint32_t hit) const
   return {std::min(first, second), std::max(first, second)};
 }
 
-void GpuChecker::write(const StateRange& states, const std::uint32_t* verdicts, BatchResult& result,
-                       std::vector<std::size_t>& undecided) const
+std::vector<std::size_t> GpuChecker::write(const StateRange& states, const std::uint32_t* verdicts,
+                                           BatchResult& result) const
 {
-  for (std::size_t i = 0; i < states.count; ++i)
+  const auto is_decided = [&](std::size_t i)
+  {
     if (isHit(verdicts[i]))
     {
       result.valid[states.begin + i] = 0;
       result.colliding[states.begin + i] = bodiesOf(verdicts[i]);
+      return true;
     }
-    else if (!isFree(verdicts[i]))
-      undecided.push_back(states.begin + i);
+    return isFree(verdicts[i]);
+  };
+  std::vector<std::size_t> undecided = rowsWithout(states.count, is_decided);
+  for (std::size_t& row : undecided)
+    row += states.begin;
+  return undecided;
 }
 
 void GpuChecker::check(const double* states, std::size_t count, BatchResult& result, const Margins* margins)
@@ -248,7 +284,8 @@ void GpuChecker::check(const double* states, std::size_t count, BatchResult& res
   if (placesLinks() &&
       rowsWithout(count, [&](std::size_t row) { return placeable.contains(states + row * width); }).empty())
   {
-    kinematics_->setStates(states);
+    kinematics_->setStates([&](const StateRange& rows, double* to)
+                           { std::copy_n(states + rows.begin * width, rows.count * width, to); });
     return checkAll(*kinematics_, count, links, link_poses, margins, result);
   }
   UploadedPoses poses(*problem_, links, link_poses);
@@ -280,10 +317,15 @@ class AllStates : public PartSource
     taken_ = next.end();
     return next;
   }
+  void copy(const StateRange& /*states*/, double* /*to*/) override
+  {
+    throw std::logic_error("the source of the poses has the states");
+  }
   void bring(const StateRange& states, const std::uint32_t* verdicts, const GpuWork& /*work*/) override
   {
     brought_ += states.count;
-    checker_.write(states, verdicts, result_, undecided_);
+    const std::vector<std::size_t> undecided = checker_.write(states, verdicts, result_);
+    undecided_.insert(undecided_.end(), undecided.begin(), undecided.end());
   }
 
   std::size_t brought() const { return brought_; }

@@ -48,14 +48,13 @@ class GpuChecker
   /// it. If the device does not take it, `fault` says so, and trees decide all pairs.
   void useProofs(const std::shared_ptr<const LaneScene>& scene);
 
-  /// Checks the states of `parts` until there is none, and brings their verdicts. `states`: rows of the robot's
-  /// variables, each in PlaceableStates. `margins`: for these states and the selected pairs; null: none.
-  void check(const double* states, PartSource& parts, const Margins* margins = nullptr);
+  /// Checks the states of `parts` until there is none, and brings their verdicts. Each state is in PlaceableStates.
+  /// `margins`: for these states and the selected pairs; null: none.
+  void check(PartSource& parts, const Margins* margins = nullptr);
 
-  /// Writes the verdicts of states that a PartSource has got: 0 and the pair for each one that collides. Adds the
-  /// undecided ones to `undecided`. Leaves the rows of the others as they are.
-  void write(const StateRange& states, const std::uint32_t* verdicts, BatchResult& result,
-             std::vector<std::size_t>& undecided) const;
+  /// Writes the verdicts of states that a PartSource has got, on all cores: 0 and the pair for each one that collides.
+  /// Returns the undecided ones, in ascending order. Leaves the rows of the others as they are.
+  std::vector<std::size_t> write(const StateRange& states, const std::uint32_t* verdicts, BatchResult& result) const;
 
   /// Checks `count` states, whatever their values are, and decides undecided ones on the CPU. Fills the result except
   /// for revision and seconds.

@@ -245,7 +245,7 @@ void GpuPairChecker::writeQueries()
 
 void GpuPairChecker::finish(const Work& work, Part& part)
 {
-  if (fetch(part, work.parts))
+  if (fetch(work, part))
     return;
   const StateRange whole = part.states;
   if (whole.count == 1)
@@ -263,7 +263,7 @@ void GpuPairChecker::finish(const Work& work, Part& part)
   }
 }
 
-bool GpuPairChecker::fetch(Part& part, PartSource& to)
+bool GpuPairChecker::fetch(const Work& of, Part& part)
 {
   const AnswerOffsets offsets(part.states.count);
   const std::uint32_t* words = part.fetched.wait();
@@ -277,8 +277,9 @@ bool GpuPairChecker::fetch(Part& part, PartSource& to)
   work.traversed = std::size_t(words[LIST_MESH_ENTRIES + LIST_LENGTH]) + words[LIST_SOLID_ENTRIES + LIST_LENGTH];
   work_ += work;
   const std::uint32_t* const verdicts = words + offsets.verdicts / sizeof(std::uint32_t);
-  learnOrder(verdicts, part.states.count);
-  to.bring(part.states, verdicts, work);
+  if (!provesFirst(of))  // the proofs have an order of their own
+    learnOrder(verdicts, part.states.count);
+  of.parts.bring(part.states, verdicts, work);
   return true;
 }
 

@@ -111,7 +111,7 @@ class GpuPairChecker
   void bringFree(PartSource& parts) const;
   void start(const Work& work, Part& part);
   void finish(const Work& work, Part& part);
-  bool fetch(Part& part, PartSource& to);
+  bool fetch(const Work& of, Part& part);
   bool provesFirst(const Work& work) const;
   std::string faultOfProofs(const LaneScene& scene, GpuKinematics& kinematics);
   void findCandidates(std::uint32_t states);

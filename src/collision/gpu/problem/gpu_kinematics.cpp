@@ -5,7 +5,9 @@
 #include <cstring>
 #include <random>
 
+#include "base/parallel_for.h"
 #include "collision/gpu/problem/kinematics_shader.h"
+#include "gpu/staging_ring.h"
 #include "shader_constants.h"
 
 // Uploads the joint values of a part; the robot's shader computes the link poses in double and writes the instances'
@@ -15,6 +17,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::size_t kTestedStates = 64;
+constexpr std::size_t kRowsPerChunk = 16'384;  // copying these takes longer than starting a thread
 // The error of the double computation, relative to the distance from the origin (docs/error_bounds.md), with room.
 constexpr double kDoubleError = 1e-11;
 
@@ -61,7 +64,8 @@ std::string GpuKinematics::findFault()
   for (std::size_t i = 0; i < kTestedStates; ++i)
     robot_->randomState(generator, states.data() + i * width);
   setInstances(problem);
-  setStates(states.data());
+  setStates([&](const StateRange& rows, double* to)
+            { std::copy_n(&states[rows.begin * width], rows.count * width, to); });
   TexelBuffer poses;
   poses.reserve(kTestedStates * links * POSE_FLOATS * sizeof(float));
   const Buffer no_list(COUNTER_WORDS * sizeof(std::uint32_t));
@@ -126,9 +130,24 @@ void GpuKinematics::begin(std::size_t begin, std::size_t count)
   TexelBuffer& upload = uploads_[next_upload_];
   next_upload_ = 1 - next_upload_;
   upload.reserve((count * width + 1) * sizeof(double));
-  upload.buffer().write(states_ + begin * width, count * width * sizeof(double));
+  const std::size_t row_bytes = width * sizeof(double);
+  const std::size_t most = std::max<std::size_t>(1, StagingRing::kLargestPieceBytes / std::max<std::size_t>(1, row_bytes));
+  for (std::size_t first = 0; first < count; first += most)
+  {
+    const std::size_t rows = std::min(most, count - first);
+    upload.buffer().write(rows * row_bytes, first * row_bytes,
+                          [&](void* to)
+                          { copyOnAllCores({begin + first, rows}, width, static_cast<double*>(to)); });
+  }
   upload.bindTexture(UNIT_STATES);
   count_ = count;
+}
+
+void GpuKinematics::copyOnAllCores(const StateRange& states, std::size_t width, double* to) const
+{
+  parallelFor(states.count, kRowsPerChunk,
+              [&](std::size_t from, std::size_t end)
+              { copy_({states.begin + from, end - from}, to + from * width); });
 }
 
 void GpuKinematics::bind(TexelBuffer& poses, bool listed)

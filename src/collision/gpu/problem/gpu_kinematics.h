@@ -1,11 +1,14 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "collision/gpu/problem/pose_source.h"
 #include "collision/problem/collision_problem.h"
+#include "collision/problem/state_range.h"
 #include "gpu/program.h"
 #include "gpu_planning_scene/robot_model.h"
 
@@ -27,8 +30,11 @@ class GpuKinematics : public PoseSource
   /// Sets the shape instances to place: the instances of `problem.robot`.
   void setInstances(const CollisionProblem& problem);
 
-  /// Sets the states: row-major rows of the robot's variables, each in PlaceableStates.
-  void setStates(const double* states) { states_ = states; }
+  /// Writes states: row-major rows of the robot's variables, each in PlaceableStates. Called on several threads at
+  /// once.
+  using CopyStates = std::function<void(const StateRange& states, double* to)>;
+  /// Sets where the states come from.
+  void setStates(CopyStates copy) { copy_ = std::move(copy); }
   void begin(std::size_t begin, std::size_t count) override;
   void place(TexelBuffer& poses) override;
   void placeOpenStates(TexelBuffer& poses, const BatchLists& lists) override;
@@ -36,11 +42,12 @@ class GpuKinematics : public PoseSource
   std::size_t boundVariables() const override { return robot_->variables().size(); }
 
  private:
+  void copyOnAllCores(const StateRange& states, std::size_t width, double* to) const;
   void bind(TexelBuffer& poses, bool listed);
 
   std::shared_ptr<const RobotModel> robot_;
   Program program_;
-  const double* states_ = nullptr;
+  CopyStates copy_;
   std::size_t count_ = 0;  // states of the part
   // Two buffers, so that states are uploaded while the GPU works on the previous part.
   std::array<TexelBuffer, 2> uploads_;
