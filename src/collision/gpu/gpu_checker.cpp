@@ -284,8 +284,7 @@ void GpuChecker::check(const double* states, std::size_t count, BatchResult& res
   if (placesLinks() &&
       rowsWithout(count, [&](std::size_t row) { return placeable.contains(states + row * width); }).empty())
   {
-    kinematics_->setStates([&](const StateRange& rows, double* to)
-                           { std::copy_n(states + rows.begin * width, rows.count * width, to); });
+    kinematics_->setStates(states);
     return checkAll(*kinematics_, count, links, link_poses, margins, result);
   }
   UploadedPoses poses(*problem_, links, link_poses);

@@ -11,12 +11,6 @@ namespace
 {
 constexpr int kMaxReads = 8;  // pixels of a level along each side of a rectangle
 
-struct PixelRange
-{
-  int first;
-  int last;
-};
-
 std::size_t pixelOf(int x, int y, int width)
 {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
@@ -28,24 +22,17 @@ struct PixelInterval
   double last;
 };
 
-/// The pixels in which the interval [centre - radius, centre + radius] at the depths [near, far] may appear, and one
+/// The pixels in which the interval [centre - extent, centre + extent] at the depths [near, far] may appear, and one
 /// more on each side. They may be outside the image.
-PixelInterval intervalOf(double centre, double radius, double near, double far, double focal_length,
+PixelInterval intervalOf(double centre, double extent, double near, double far, double focal_length,
                          double principal_point)
 {
-  const double low = centre - radius;
-  const double high = centre + radius;
+  const double low = centre - extent;
+  const double high = centre + extent;
   return {std::floor(principal_point + focal_length * std::min(low / near, low / far)) - 1.0,
           std::ceil(principal_point + focal_length * std::max(high / near, high / far)) + 1.0};
 }
 
-/// The part of an interval that is in the image.
-PixelRange within(const PixelInterval& interval, int size)
-{
-  const double border = size - 1;
-  return {static_cast<int>(std::clamp(interval.first, 0.0, border)),
-          static_cast<int>(std::clamp(interval.last, 0.0, border))};
-}
 }  // namespace
 
 DepthView::DepthView(const PinholeCamera& camera, std::vector<float> depths, bool has_gaps)
@@ -76,36 +63,75 @@ bool DepthView::shows(const Eigen::Vector3d& point) const
   return point.z() > 0.0 && u >= -0.5 && u <= camera_.width - 0.5 && v >= -0.5 && v <= camera_.height - 0.5;
 }
 
-bool DepthView::showsAll(const Eigen::Vector3d& centre, double radius) const
+bool DepthView::showsAll(const VoxelInView& voxel) const
 {
-  const double near = centre.z() - radius;
-  const double far = centre.z() + radius;
+  const auto& [centre, extent, inner_radius] = voxel;
+  const double near = centre.z() - extent.z();
+  const double far = centre.z() + extent.z();
   if (near <= 0.0)
     return false;
-  const PixelInterval columns = intervalOf(centre.x(), radius, near, far, camera_.fx, camera_.cx);
-  const PixelInterval rows = intervalOf(centre.y(), radius, near, far, camera_.fy, camera_.cy);
+  const PixelInterval columns = intervalOf(centre.x(), extent.x(), near, far, camera_.fx, camera_.cx);
+  const PixelInterval rows = intervalOf(centre.y(), extent.y(), near, far, camera_.fy, camera_.cy);
   return columns.first >= 0.0 && columns.last <= camera_.width - 1.0 && rows.first >= 0.0 &&
          rows.last <= camera_.height - 1.0;
 }
 
-bool DepthView::seesBehind(const Eigen::Vector3d& centre, double radius) const
+DepthView::PixelRange DepthView::within(double first, double last, int size)
 {
-  const double near = centre.z() - radius;
-  const double far = centre.z() + radius;
+  const double border = size - 1;
+  return {static_cast<int>(std::clamp(first, 0.0, border)), static_cast<int>(std::clamp(last, 0.0, border))};
+}
+
+bool DepthView::seesBehind(const VoxelInView& voxel) const
+{
+  const auto& [centre, extent, inner_radius] = voxel;
+  const double near = centre.z() - extent.z();
+  const double far = centre.z() + extent.z();
   if (near <= 0.0 || !shows(centre))
     return false;
-  const PixelRange columns = within(intervalOf(centre.x(), radius, near, far, camera_.fx, camera_.cx), camera_.width);
-  const PixelRange rows = within(intervalOf(centre.y(), radius, near, far, camera_.fy, camera_.cy), camera_.height);
+  const PixelInterval u = intervalOf(centre.x(), extent.x(), near, far, camera_.fx, camera_.cx);
+  const PixelInterval v = intervalOf(centre.y(), extent.y(), near, far, camera_.fy, camera_.cy);
+  const PixelRange columns = within(u.first, u.last, camera_.width);
+  const PixelRange rows = within(v.first, v.last, camera_.height);
   int level = 0;
   while ((std::max(columns.last - columns.first, rows.last - rows.first) >> level) >= kMaxReads)
     ++level;
-  const Level& depths = levels_[static_cast<std::size_t>(level)];
-  float smallest = std::numeric_limits<float>::infinity();
+  bool has_ray = false;
   for (int y = rows.first >> level; y <= rows.last >> level; ++y)
     for (int x = columns.first >> level; x <= columns.last >> level; ++x)
-      smallest = std::min(smallest, depths.depths[pixelOf(x, y, depths.width)]);
-  return std::isfinite(smallest) && static_cast<double>(smallest) > far &&
-         (!has_gaps_ || passesThrough(centre, radius / std::sqrt(3.0)));
+    {
+      if (!endBehind({level, x, y}, columns, rows, far))
+        return false;
+      has_ray = has_ray || std::isfinite(smallestOf({level, x, y}));
+    }
+  return has_ray && (!has_gaps_ || passesThrough(centre, inner_radius));
+}
+
+float DepthView::smallestOf(const Square& square) const
+{
+  const Level& level = levels_[static_cast<std::size_t>(square.level)];
+  return level.depths[pixelOf(square.x, square.y, level.width)];
+}
+
+/// Whether all pixels of the square that are in the rectangle are deeper than `far`. Looks at smaller squares only
+/// where a pixel of the square is nearer: it may be outside the rectangle.
+bool DepthView::endBehind(const Square& square, const PixelRange& columns, const PixelRange& rows, double far) const
+{
+  if (static_cast<double>(smallestOf(square)) > far)
+    return true;
+  if (square.level == 0)
+    return false;
+  const int level = square.level - 1;
+  const auto part_of = [level](int half, const PixelRange& range) {
+    return PixelRange{std::max(half, range.first >> level), std::min(half + 1, range.last >> level)};
+  };
+  const PixelRange x = part_of(2 * square.x, columns);
+  const PixelRange y = part_of(2 * square.y, rows);
+  for (int row = y.first; row <= y.last; ++row)
+    for (int column = x.first; column <= x.last; ++column)
+      if (!endBehind({level, column, row}, columns, rows, far))
+        return false;
+  return true;
 }
 
 /// Whether a ray is certain to pass through a ball. A ray is somewhere in its pixel, and the pixels of the square

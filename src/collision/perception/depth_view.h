@@ -8,6 +8,14 @@
 
 namespace gpu_planning_scene::core
 {
+/// A voxel in a camera's frame (x to the right, y down, z forward). All lengths are metres.
+struct VoxelInView
+{
+  Eigen::Vector3d centre;
+  Eigen::Vector3d extent;  ///< half lengths of its bounding box along the camera's axes
+  double inner_radius;     ///< of the ball inside it
+};
+
 /// The depths that a pinhole camera has measured, and the smallest depth of each square of 2, 4, 8, ... pixels. So a
 /// few reads tell whether the camera sees through a voxel: the hierarchical z-buffer of N. Greene, M. Kass, G. Miller:
 /// Hierarchical Z-buffer visibility. SIGGRAPH 1993.
@@ -22,15 +30,14 @@ class DepthView
   /// Whether a point is in front of the camera and in its image.
   bool shows(const Eigen::Vector3d& point) const;
 
-  /// Whether a ball, with a pixel around it, is in front of the camera and in its image. See seesBehind().
-  bool showsAll(const Eigen::Vector3d& centre, double radius) const;
+  /// Whether a voxel, with a pixel around it, is in front of the camera and in its image. See seesBehind().
+  bool showsAll(const VoxelInView& voxel) const;
 
-  /// Whether the camera sees what is behind the voxel in a ball. `centre`, `radius`: metres, of the ball, in the
-  /// camera's frame (x to the right, y down, z forward). True if the image shows the centre, at least one ray is
-  /// measured near the ball, and every measured ray near it ends behind it. "Near" is the ball's bounding rectangle in
-  /// the image, enlarged by a pixel. So the camera does not see behind a voxel at the edge of a nearer surface, nor
+  /// Whether the camera sees what is behind a voxel. True if the image shows its centre, at least one ray is measured
+  /// near the voxel, and every measured ray near it ends behind it. "Near" is the bounding rectangle of the voxel's box
+  /// in the image, enlarged by a pixel. So the camera does not see behind a voxel at the edge of a nearer surface, nor
   /// through a surface at a grazing angle. If the rays have gaps, at least one ray must also pass through the voxel.
-  bool seesBehind(const Eigen::Vector3d& centre, double radius) const;
+  bool seesBehind(const VoxelInView& voxel) const;
 
  private:
   struct Level
@@ -40,6 +47,24 @@ class DepthView
     std::vector<float> depths;
   };
 
+  /// Both ends count.
+  struct PixelRange
+  {
+    int first;
+    int last;
+  };
+  /// A pixel of a level: a square of pixels of the image.
+  struct Square
+  {
+    int level;
+    int x;
+    int y;
+  };
+
+  /// The part of an interval that is in the image.
+  static PixelRange within(double first, double last, int size);
+  float smallestOf(const Square& square) const;
+  bool endBehind(const Square& square, const PixelRange& columns, const PixelRange& rows, double far) const;
   bool passesThrough(const Eigen::Vector3d& centre, double radius) const;
 
   PinholeCamera camera_;

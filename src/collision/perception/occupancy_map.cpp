@@ -50,6 +50,17 @@ struct Hit
   bool may_be_robot;  // within the padding of the robot
 };
 
+/// Places voxels in the frame of a camera.
+struct VoxelProjection
+{
+  const DepthView& depths;
+  Isometry3d to_camera;  // from the planning frame
+  Vector3d extent;       // see VoxelInView
+  double inner_radius;
+
+  VoxelInView view(const Vector3d& centre) const { return {to_camera * centre, extent, inner_radius}; }
+};
+
 bool hasSmallerKey(const Voxel& a, const Voxel& b)
 {
   return a.key < b.key;
@@ -62,6 +73,7 @@ struct OccupancyMap::Impl
 
   std::size_t add(const Measurement& measurement, const SensorView& view, const PlanningScene& scene,
                   const double* state, const std::set<std::string>& left_out);
+  std::vector<VoxelProjection> projectionsOf(const Measurement& measurement, const Isometry3d& sensor) const;
   std::vector<Hit> hitVoxels(const Measurement& measurement, const Isometry3d& sensor) const;
   template <class Keyed>
   std::vector<Vector3d> centresOf(const std::vector<Keyed>& some) const;
@@ -85,6 +97,19 @@ std::vector<Vector3d> OccupancyMap::Impl::centresOf(const std::vector<Keyed>& so
   return centres;
 }
 
+std::vector<VoxelProjection> OccupancyMap::Impl::projectionsOf(const Measurement& measurement,
+                                                               const Isometry3d& sensor) const
+{
+  const double half = 0.5 * grid.size();
+  std::vector<VoxelProjection> projections;
+  for (const PlacedView& placed : measurement.views)
+  {
+    const Isometry3d to_camera = Isometry3d(placed.from_sensor) * sensor.inverse();
+    projections.push_back({placed.depths, to_camera, to_camera.linear().cwiseAbs() * Vector3d::Constant(half), half});
+  }
+  return projections;
+}
+
 /// The voxels that contain a point of the region and whose centres are in a view, in ascending order of their keys,
 /// each once. A voxel at the border of an image, with its centre outside, could not be removed again. A cloud has no
 /// border.
@@ -98,17 +123,16 @@ std::vector<Hit> OccupancyMap::Impl::hitVoxels(const Measurement& measurement, c
       keys.add(grid.keyOf(placed));
   }
   std::vector<Hit> hits;
-  const Isometry3d to_sensor = sensor.inverse();
+  const std::vector<VoxelProjection> projections = projectionsOf(measurement, sensor);
   for (const std::uint64_t key : keys.take())
   {
-    const Vector3d centre = to_sensor * grid.centreOf(key);
-    const auto is_shown = [&](const PlacedView& placed) { return placed.depths.shows(placed.from_sensor * centre); };
-    const auto is_whole = [&](const PlacedView& placed)
-    { return placed.depths.showsAll(placed.from_sensor * centre, grid.ballRadius()); };
+    const Vector3d centre = grid.centreOf(key);
+    const auto is_shown = [&](const VoxelProjection& to) { return to.depths.shows(to.view(centre).centre); };
+    const auto is_whole = [&](const VoxelProjection& to) { return to.depths.showsAll(to.view(centre)); };
     if (measurement.looks_everywhere)
       hits.push_back({key, true, false});
-    else if (std::any_of(measurement.views.begin(), measurement.views.end(), is_shown))
-      hits.push_back({key, std::any_of(measurement.views.begin(), measurement.views.end(), is_whole), false});
+    else if (std::any_of(projections.begin(), projections.end(), is_shown))
+      hits.push_back({key, std::any_of(projections.begin(), projections.end(), is_whole), false});
   }
   return hits;
 }
@@ -119,18 +143,17 @@ std::vector<Hit> OccupancyMap::Impl::hitVoxels(const Measurement& measurement, c
 std::vector<Voxel> OccupancyMap::Impl::takeKnown(std::vector<Hit>& hits, const Measurement& measurement,
                                                  const Isometry3d& sensor, const SensorView& view) const
 {
-  const Isometry3d to_sensor = sensor.inverse();
+  const std::vector<VoxelProjection> projections = projectionsOf(measurement, sensor);
   const auto is_seen_through = [&](const Voxel& voxel)
   {
-    const Vector3d from_sensor = to_sensor * grid.centreOf(voxel.key);
-    return std::any_of(
-        measurement.views.begin(), measurement.views.end(),
-        [&](const PlacedView& placed)
-        {
-          const Vector3d centre = placed.from_sensor * from_sensor;
-          return placed.depths.seesBehind(centre, grid.ballRadius()) &&
-                 (!voxel.is_whole || measurement.looks_everywhere || placed.depths.showsAll(centre, grid.ballRadius()));
-        });
+    const Vector3d centre = grid.centreOf(voxel.key);
+    return std::any_of(projections.begin(), projections.end(),
+                       [&](const VoxelProjection& to)
+                       {
+                         const VoxelInView seen = to.view(centre);
+                         return to.depths.seesBehind(seen) &&
+                                (!voxel.is_whole || measurement.looks_everywhere || to.depths.showsAll(seen));
+                       });
   };
   std::vector<Voxel> known;
   known.reserve(voxels.size());

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -20,8 +19,6 @@ class VoxelGrid
   explicit VoxelGrid(double size) : size_(size), per_metre_(1.0 / size) {}
 
   double size() const { return size_; }
-  /// Of the ball around a voxel.
-  double ballRadius() const { return 0.5 * std::sqrt(3.0) * size_; }
   /// The voxel that contains a point of the planning frame. Throws Error for a point that is too far from the origin.
   std::uint64_t keyOf(const Eigen::Vector3d& point) const;
   Eigen::Vector3d centreOf(std::uint64_t key) const;

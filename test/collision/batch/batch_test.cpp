@@ -1,7 +1,9 @@
 // Each state of a batch is answered once, whoever takes it and whatever happens to the devices.
 
+#include <algorithm>
 #include <chrono>
 #include <future>
+#include <numeric>
 #include <random>
 #include <stdexcept>
 #include <thread>
@@ -16,6 +18,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::size_t kAny = 1'000'000;
+constexpr std::size_t kMostStates = 100'000;  // of a batch
 
 /// The states of a core's part.
 std::vector<std::size_t> rowsOf(const std::vector<StateRange>& part)
@@ -41,11 +44,15 @@ class BatchParts : public testing::Test
                                         std::size_t cores = 2)
   {
     const auto batch = std::make_shared<Batch>(count, std::nullopt, cores);
-    DeviceRows rows;
-    rows.only_cores.assign(only_cores.empty() ? 0 : count, 0);
-    for (const std::size_t row : only_cores)
-      rows.only_cores[row] = 1;
-    batch->setDeviceRows(std::move(rows));
+    static const std::vector<double> states = []
+    {
+      std::vector<double> numbered(kMostStates);
+      std::iota(numbered.begin(), numbered.end(), 1.0);
+      return numbered;
+    }();
+    const auto suits_devices = [only_cores](std::size_t row)
+    { return !std::binary_search(only_cores.begin(), only_cores.end(), row); };
+    batch->setDeviceRows(std::make_unique<DeviceRows>(states.data(), count, 1, suits_devices));
     return batch;
   }
 };
@@ -93,6 +100,9 @@ TEST_F(BatchParts, ThatOnlyCoresCanCheckHaveNoAnswerOfADevice)
   batch->join(1);
   batch->letCoresHelp(false);
   const StateRange part = batch->takeForDevice(1, kAny, 1.0);
+  std::vector<double> copied(10);
+  batch->copyForDevice(part, 1, copied.data());
+  EXPECT_EQ(copied, (std::vector<double>{0, 2, 3, 3, 3, 6, 7, 8, 9, 9})) << "others in their places";
   const StateRange mine = batch->beginAnswer(1, part);
   ASSERT_EQ(mine.count, 10U);
   batch->result().valid[3] = 0;
@@ -128,6 +138,9 @@ TEST_F(BatchParts, ThatADeviceLeavesUndecidedGoToTheCores)
   batch->join(1);
   batch->letCoresHelp(false);
   const StateRange part = batch->takeForDevice(1, kAny, 1.0);
+  std::vector<double> copied(10);
+  batch->copyForDevice(part, 1, copied.data());
+  EXPECT_EQ(copied, (std::vector<double>{0, 2, 3, 3, 3, 6, 7, 8, 9, 9})) << "others in their places";
   const StateRange mine = batch->beginAnswer(1, part);
   ASSERT_EQ(mine.count, 10U);
   batch->endAnswer(mine, {2, 3, 7});
@@ -241,6 +254,27 @@ TEST_F(BatchParts, AreWaitedForByCloseWhileADeviceWrites)
   EXPECT_THROW(batch->takeResult(), std::runtime_error);
 }
 
+TEST_F(BatchParts, AreZerosForADeviceAfterTheEndOfTheBatch)
+{
+  const auto batch = batchOf(10);
+  batch->join(1);
+  const StateRange part = batch->takeForDevice(1, kAny, 1.0);
+  batch->close();
+  std::vector<double> copied(part.count, -1.0);
+  batch->copyForDevice(part, 1, copied.data());
+  EXPECT_EQ(copied, std::vector<double>(part.count, 0.0)) << "the states may be gone";
+}
+
+TEST_F(BatchParts, WhoseAnswersFailEndTheBatch)
+{
+  const auto batch = batchOf(100);
+  batch->join(1);
+  batch->beginAnswer(1, batch->takeForDevice(1, kAny, 1.0));
+  batch->failAnswer(std::make_exception_ptr(std::runtime_error("no memory")));
+  batch->close();
+  EXPECT_THROW(batch->takeResult(), std::runtime_error);
+}
+
 /// Threads take, answer, lose and overtake parts at random. Every third state collides.
 TEST_F(BatchParts, AreEachAnsweredOnceAndAsTheyShould)
 {
@@ -273,6 +307,8 @@ TEST_F(BatchParts, AreEachAnsweredOnceAndAsTheyShould)
           batch->giveBack(device);
           continue;
         }
+        std::vector<double> copied(part.count);
+        batch->copyForDevice(part, 1, copied.data());
         std::vector<std::size_t> undecided;
         const StateRange mine = batch->beginAnswer(device, part);
         for (std::size_t i = mine.begin; i < mine.end(); ++i)
@@ -280,7 +316,7 @@ TEST_F(BatchParts, AreEachAnsweredOnceAndAsTheyShould)
           const bool is_undecided = own() % 100 == 0;
           if (is_undecided)
             undecided.push_back(i);
-          const bool may_be_wrong = is_undecided || batch->deviceRows().only_cores[i] != 0;
+          const bool may_be_wrong = is_undecided || std::binary_search(only_cores.begin(), only_cores.end(), i);
           write(i, may_be_wrong ? own() % 2 == 0 : i % 3 == 0);
         }
         if (mine.count != 0)

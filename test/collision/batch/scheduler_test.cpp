@@ -51,19 +51,17 @@ class SchedulerTest : public testing::Test
     return *scheduler_;
   }
 
-  BatchResult check(std::size_t count, bool has_owner = false)
+  BatchResult check(std::size_t count)
   {
     const auto states = std::make_shared<std::vector<double>>(cartStates(count));
     StateBatch batch{states->data(), count};
-    if (has_owner)
-      batch.owner = states;
     return scheduler().check(batch);
   }
 
   /// Checks a batch in the scene with the wall on `side`.
-  BatchResult expectRight(std::size_t count, double side = 1.0, std::uint64_t revision = 1, bool has_owner = false)
+  BatchResult expectRight(std::size_t count, double side = 1.0, std::uint64_t revision = 1)
   {
-    BatchResult result = check(count, has_owner);
+    BatchResult result = check(count);
     EXPECT_EQ(result.valid, cartAnswers(cartStates(count), side));
     for (std::size_t i = 0; i < count; ++i)
       if ((result.colliding[i] == kNoPair) != (result.valid[i] == 1))
@@ -158,7 +156,6 @@ TEST_F(SchedulerTest, ADeviceThatIsBusyAtFirstJoinsLater)
   scheduler().setScene(cartScene(-1.0, 2));
   const auto states = std::make_shared<std::vector<double>>(cartStates(kLong));
   StateBatch batch{states->data(), states->size()};
-  batch.owner = states;
   bool is_open = false;
   batch.go_on = [&](std::size_t /*answered*/)
   {

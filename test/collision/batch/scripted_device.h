@@ -136,7 +136,9 @@ class ScriptedDevice : public BatchDevice
     if (std::find(script_->undecided.begin(), script_->undecided.end(), i) != script_->undecided.end())
       return open.push_back(i);
     const double margin = parts.margins() ? *parts.margins()->of(i) : 0.0;
-    if (parts.states()[i] * side_ < -margin)
+    double x;
+    parts.copy({i, 1}, 1, &x);
+    if (x * side_ < -margin)
       return;
     parts.result().valid[i] = 0;
     parts.result().colliding[i] = {1, body_};

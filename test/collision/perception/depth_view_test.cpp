@@ -1,4 +1,4 @@
-// DepthView never sees behind a ball if a ray through the ball ends before the ball's far side.
+// DepthView never sees behind a voxel if a ray through the ball inside it ends before its far side.
 
 #include <cmath>
 #include <random>
@@ -15,6 +15,12 @@ using Eigen::Vector3d;
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
+/// A cube whose edges are parallel to the camera's axes. The ball inside it has the radius.
+VoxelInView cubeAt(const Vector3d& centre, double radius)
+{
+  return {centre, Vector3d::Constant(radius), radius};
+}
+
 /// The number of rays that pass within `radius` of the ball's centre and end in front of its far side, pixel by pixel.
 int endsNear(const PinholeCamera& camera, const std::vector<float>& depths, const Vector3d& centre, double radius)
 {
@@ -30,7 +36,7 @@ int endsNear(const PinholeCamera& camera, const std::vector<float>& depths, cons
   return count;
 }
 
-TEST(DepthView, NeverSeesBehindABallInFrontOfWhichARayEnds)
+TEST(DepthView, NeverSeesBehindAVoxelInFrontOfWhichARayEnds)
 {
   const std::uint64_t seed = 5;
   SCOPED_TRACE("seed " + std::to_string(seed));
@@ -54,7 +60,7 @@ TEST(DepthView, NeverSeesBehindABallInFrontOfWhichARayEnds)
       const Vector3d centre(0.8 * z * unit(generator), 0.5 * z * unit(generator), z);
       const double radius = 0.3 * std::abs(unit(generator));
       const int nearer = endsNear(camera, depths, centre, radius);
-      if (!view.seesBehind(centre, radius))
+      if (!view.seesBehind(cubeAt(centre, radius)))
       {
         refuted += nearer > 0 ? 1 : 0;
         continue;
@@ -67,35 +73,56 @@ TEST(DepthView, NeverSeesBehindABallInFrontOfWhichARayEnds)
   EXPECT_GT(refuted, 300);
 }
 
-TEST(DepthView, SeesBehindBallsThatAreWellInFrontOfAWall)
+TEST(DepthView, SeesBehindVoxelsThatAreWellInFrontOfAWall)
 {
   const PinholeCamera camera{64, 48, 60.0, 60.0, 31.5, 23.5};
   const DepthView view(camera, std::vector<float>(std::size_t{64} * 48, 2.0F));
-  EXPECT_TRUE(view.seesBehind({0.0, 0.0, 1.0}, 0.05));
-  EXPECT_TRUE(view.seesBehind({0.0, 0.0, 1.9}, 0.05));
-  EXPECT_TRUE(view.seesBehind({0.2, -0.2, 0.6}, 0.4)) << "a large part of the image";
-  EXPECT_FALSE(view.seesBehind({0.0, 0.0, 1.98}, 0.05)) << "the ball contains a part of the wall";
-  EXPECT_FALSE(view.seesBehind({0.0, 0.0, 2.5}, 0.05)) << "behind the wall";
-  EXPECT_FALSE(view.seesBehind({1.5, 0.0, 1.0}, 0.05)) << "beside the image";
-  EXPECT_FALSE(view.seesBehind({0.0, 0.0, -1.0}, 0.05)) << "behind the camera";
-  EXPECT_FALSE(view.seesBehind({0.0, 0.0, 0.03}, 0.05)) << "around the camera";
-  EXPECT_FALSE(DepthView(camera, std::vector<float>(std::size_t{64} * 48, kInfinite)).seesBehind({0.0, 0.0, 1.0}, 0.05))
+  EXPECT_TRUE(view.seesBehind(cubeAt({0.0, 0.0, 1.0}, 0.05)));
+  EXPECT_TRUE(view.seesBehind(cubeAt({0.0, 0.0, 1.9}, 0.05)));
+  EXPECT_TRUE(view.seesBehind(cubeAt({0.2, -0.2, 0.6}, 0.4))) << "a large part of the image";
+  EXPECT_FALSE(view.seesBehind(cubeAt({0.0, 0.0, 1.98}, 0.05))) << "the voxel contains a part of the wall";
+  EXPECT_FALSE(view.seesBehind(cubeAt({0.0, 0.0, 2.5}, 0.05))) << "behind the wall";
+  EXPECT_FALSE(view.seesBehind(cubeAt({1.5, 0.0, 1.0}, 0.05))) << "beside the image";
+  EXPECT_FALSE(view.seesBehind(cubeAt({0.0, 0.0, -1.0}, 0.05))) << "behind the camera";
+  EXPECT_FALSE(view.seesBehind(cubeAt({0.0, 0.0, 0.03}, 0.05))) << "around the camera";
+  EXPECT_FALSE(
+      DepthView(camera, std::vector<float>(std::size_t{64} * 48, kInfinite)).seesBehind(cubeAt({0.0, 0.0, 1.0}, 0.05)))
       << "no ray is measured";
 }
 
-TEST(DepthView, DoesNotSeeBehindABallBesideANearerSurface)
+TEST(DepthView, DoesNotSeeBehindAVoxelBesideANearerSurface)
 {
-  // The ball is between the columns 30 and 33. The surface ends at a column to the left.
+  // The voxel is between the columns 30 and 33. The surface ends at a column to the left.
   const PinholeCamera camera{64, 48, 60.0, 60.0, 31.5, 23.5};
   const auto sees = [&](int last_column)
   {
     std::vector<float> depths(std::size_t{64} * 48, 5.0F);
     for (int y = 0; y < 48; ++y)
       std::fill_n(depths.begin() + std::ptrdiff_t{64} * y, last_column + 1, 0.5F);
-    return DepthView(camera, depths).seesBehind({0.0, 0.0, 2.0}, 0.04);
+    return DepthView(camera, depths).seesBehind(cubeAt({0.0, 0.0, 2.0}, 0.04));
   };
   EXPECT_FALSE(sees(29)) << "one pixel beside it";
   EXPECT_TRUE(sees(27));
+}
+
+/// The camera looks at large voxels through squares of many pixels, but only the pixels near a voxel count.
+TEST(DepthView, SeesBehindALargeVoxelUnlessARayEndsNearIt)
+{
+  const PinholeCamera camera{640, 480, 600.0, 600.0, 319.5, 239.5};
+  const VoxelInView voxel = cubeAt({0.03, -0.02, 1.0}, 0.05);
+  const auto sees = [&](int x, int y)
+  {
+    std::vector<float> depths(std::size_t{640} * 480, 5.0F);
+    depths[camera.pixel(x, y)] = 0.5F;
+    return DepthView(camera, depths).seesBehind(voxel);
+  };
+  // The voxel's box takes the columns 306.9 to 370.1 and the rows 195.3 to 258.4, by its near side.
+  for (const int y : {196, 227, 258})
+    for (int x = 290; x < 390; ++x)
+      EXPECT_EQ(sees(x, y), x < 305 || x > 372) << x << " " << y;
+  for (const int x : {307, 340, 370})
+    for (int y = 180; y < 280; ++y)
+      EXPECT_EQ(sees(x, y), y < 194 || y > 260) << x << " " << y;
 }
 
 TEST(DepthView, DoesNotSeeThroughAFloorAtAGrazingAngle)
@@ -108,7 +135,7 @@ TEST(DepthView, DoesNotSeeThroughAFloorAtAGrazingAngle)
   const DepthView view(camera, depths);
   int seen = 0;
   for (int i = 0; i < 500; ++i)
-    seen += view.seesBehind({0.0, 1.0, 2.0 + 0.01 * i}, 0.0087) ? 1 : 0;  // the balls of voxels of 1 cm
+    seen += view.seesBehind(cubeAt({0.0, 1.0, 2.0 + 0.01 * i}, 0.005)) ? 1 : 0;  // voxels of 1 cm
   EXPECT_EQ(0, seen);
 }
 }  // namespace

@@ -64,8 +64,7 @@ std::string GpuKinematics::findFault()
   for (std::size_t i = 0; i < kTestedStates; ++i)
     robot_->randomState(generator, states.data() + i * width);
   setInstances(problem);
-  setStates([&](const StateRange& rows, double* to)
-            { std::copy_n(&states[rows.begin * width], rows.count * width, to); });
+  setStates(states.data());
   TexelBuffer poses;
   poses.reserve(kTestedStates * links * POSE_FLOATS * sizeof(float));
   const Buffer no_list(COUNTER_WORDS * sizeof(std::uint32_t));
@@ -116,6 +115,12 @@ void GpuKinematics::setInstances(const CollisionProblem& problem)
     }
   link_shapes_.reserve(texels.size() * sizeof(Texel));
   link_shapes_.buffer().write(texels);
+}
+
+void GpuKinematics::setStates(const double* states)
+{
+  setStates([states, width = boundVariables()](const StateRange& rows, double* to)
+            { std::copy_n(states + rows.begin * width, rows.count * width, to); });
 }
 
 std::size_t GpuKinematics::maxStates() const

@@ -30,10 +30,10 @@ class GpuKinematics : public PoseSource
   /// Sets the shape instances to place: the instances of `problem.robot`.
   void setInstances(const CollisionProblem& problem);
 
-  /// Writes states: row-major rows of the robot's variables, each in PlaceableStates. Called on several threads at
-  /// once.
+  /// Sets the states: row-major rows of the robot's variables, each in PlaceableStates.
+  void setStates(const double* states);
+  /// The same for states that a function copies. It is called on several threads at once.
   using CopyStates = std::function<void(const StateRange& states, double* to)>;
-  /// Sets where the states come from.
   void setStates(CopyStates copy) { copy_ = std::move(copy); }
   void begin(std::size_t begin, std::size_t count) override;
   void place(TexelBuffer& poses) override;
