@@ -29,6 +29,8 @@ constexpr int kSheetFrames = 20;     // of a period in which a sheet hides a par
 constexpr float kSheetDepth = 0.9F;  // metres
 constexpr double kPadding = 0.03;    // metres
 constexpr int kViewsToClear = 3;
+// A body is gone, although this fraction of the pixels that it took is not measured. The map allows a half.
+constexpr double kHiddenFraction = 0.4;
 
 using Voxel = std::array<long, 3>;
 
@@ -103,6 +105,14 @@ bool hasNeighbour(const std::set<Voxel>& voxels, const Voxel& voxel)
   return false;
 }
 
+/// A voxel that the sheet was in.
+struct SheetVoxel
+{
+  int last_image = -1;
+  int pixels = 0;        // of the sheet, in the last image with it
+  int views_behind = 0;  // images since then that saw through the voxel
+};
+
 struct Differences
 {
   std::size_t compared = 0;      // voxels with points
@@ -135,10 +145,10 @@ class Playback
     const double pan = 0.5 - 0.5 * std::cos(turn);
     DepthImage image = windowOf(recording_, static_cast<int>(pan * (recording_.camera.width - kWidth)),
                                 static_cast<int>(pan * (recording_.camera.height - kHeight)));
-    addRobotAndSheet(image);
-    for (auto& [voxel, views] : views_behind_sheet_)
-      if (isSeenThrough(image, voxel))
-        differences_.seen_through += ++views == kViewsToClear ? 1 : 0;
+    addRobotAndSheet(image, number);
+    for (auto& [voxel, sheet] : sheet_)
+      if (sheet.last_image != number && isSeenThrough(image, voxel, sheet.pixels))
+        differences_.seen_through += ++sheet.views_behind == kViewsToClear ? 1 : 0;
     const auto start = std::chrono::steady_clock::now();
     const double time = number / 15.0;  // 15 images a second
     map_.add(image, {pose_, time, time, 0.0, range_, kPadding}, *scene_, state_.data());
@@ -177,7 +187,7 @@ class Playback
   }
 
   /// Notes the voxels of the other points.
-  void addRobotAndSheet(DepthImage& image)
+  void addRobotAndSheet(DepthImage& image, int number)
   {
     const DepthImage robot = depthImageOf(*scene_, state_.data(), image.camera, pose_);
     const bool has_sheet = phase_ >= kSheetBegins && phase_ < kSheetBegins + kSheetFrames;
@@ -187,7 +197,7 @@ class Playback
       {
         float& depth = image.depths[image.camera.pixel(x, y)];
         const float of_robot = robot.depths[image.camera.pixel(x, y)];
-        const bool is_sheet = has_sheet && x >= 200 && x < 360 && y >= 60 && y < 240;
+        const bool is_sheet = has_sheet && x >= 40 && x < 600 && y >= 20 && y < 300;
         if (is_sheet)
           depth = kSheetDepth;
         const bool is_robot = std::isfinite(of_robot) && !(depth < of_robot);
@@ -197,7 +207,7 @@ class Playback
           continue;
         const Voxel voxel = voxelOf(pose_ * pointOf(image, x, y));
         if (is_sheet)
-          views_behind_sheet_[voxel] = 0;
+          addSheetPixel(voxel, number);
         else
           measured_.insert(voxel);
         if (isInImage(image.camera, pose_.inverse() * centreOf(voxel)))
@@ -205,8 +215,17 @@ class Playback
       }
   }
 
-  /// Whether all pixels around the voxel are measured behind it. Where a pixel is not measured, the map keeps voxels.
-  bool isSeenThrough(const DepthImage& image, const Voxel& voxel) const
+  void addSheetPixel(const Voxel& voxel, int number)
+  {
+    SheetVoxel& sheet = sheet_[voxel];
+    if (sheet.last_image != number)
+      sheet = {number, 0, 0};
+    ++sheet.pixels;
+  }
+
+  /// Whether all measured pixels around the voxel end behind it, and few enough are not measured for a sheet of so many
+  /// pixels.
+  bool isSeenThrough(const DepthImage& image, const Voxel& voxel, int sheet_pixels) const
   {
     Eigen::AlignedBox2d pixels;
     double behind = 0.0;
@@ -224,11 +243,16 @@ class Playback
     const Eigen::Vector2i most = (pixels.max().array() + margin).ceil().cast<int>();
     if (least.minCoeff() < 0 || most.x() >= kWidth || most.y() >= kHeight)
       return false;
+    int unmeasured = 0;
     for (int y = least.y(); y <= most.y(); ++y)
       for (int x = least.x(); x <= most.x(); ++x)
-        if (!(static_cast<double>(image.depths[image.camera.pixel(x, y)]) > behind))
+      {
+        const float depth = image.depths[image.camera.pixel(x, y)];
+        if (static_cast<double>(depth) <= behind)
           return false;
-    return true;
+        unmeasured += std::isnan(depth) ? 1 : 0;
+      }
+    return unmeasured <= kHiddenFraction * sheet_pixels;
   }
 
   void compare(const std::vector<PlacedShape>& cubes)
@@ -239,9 +263,9 @@ class Playback
     for (const Voxel& voxel : found)
       if (!hasNeighbour(measured_, voxel))
       {
-        const auto sheet = views_behind_sheet_.find(voxel);
-        differences_.invented += sheet == views_behind_sheet_.end() ? 1 : 0;
-        differences_.left_behind += sheet != views_behind_sheet_.end() && sheet->second >= kViewsToClear ? 1 : 0;
+        const auto sheet = sheet_.find(voxel);
+        differences_.invented += sheet == sheet_.end() ? 1 : 0;
+        differences_.left_behind += sheet != sheet_.end() && sheet->second.views_behind >= kViewsToClear ? 1 : 0;
       }
     for (const Voxel& voxel : seen_)
       if (!hasNeighbour(found, voxel) && !isNearRobot(voxel))
@@ -279,9 +303,9 @@ class Playback
   const Eigen::Isometry3d pose_ = cameraPose({-2.0, 0.0, 0.8}, {2.0, 0.0, 0.4});
   int phase_ = 0;
   std::vector<double> state_;
-  std::set<Voxel> measured_;                 // by any image
-  std::map<Voxel, int> views_behind_sheet_;  // for each voxel of the sheet: images that saw through it since then
-  std::set<Voxel> seen_;                     // by the last image
+  std::set<Voxel> measured_;  // by any image
+  std::map<Voxel, SheetVoxel> sheet_;
+  std::set<Voxel> seen_;  // by the last image
   Differences differences_;
 };
 

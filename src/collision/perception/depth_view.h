@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,6 +15,8 @@ struct VoxelInView
   Eigen::Vector3d centre;
   Eigen::Vector3d extent;  ///< half lengths of its bounding box along the camera's axes
   double inner_radius;     ///< of the ball inside it
+  /// The share of the pixels near the voxel that a body in it may take without being measured. See seesBehind().
+  double hidden_share;
 };
 
 /// The depths that a pinhole camera has measured, and the smallest depth of each square of 2, 4, 8, ... pixels. So a
@@ -22,9 +25,9 @@ struct VoxelInView
 class DepthView
 {
  public:
-  /// `depths`: metres along the optical axis, row by row. Infinity: there is no ray in this pixel. 0: the ray ends
-  /// before all bodies. `has_gaps`: pixels without a ray are places that the sensor did not look at, as between the
-  /// rows of a laser scanner.
+  /// `depths`: metres along the optical axis, row by row. NaN: the ray may have met a body that the camera cannot
+  /// measure. Infinity: there is no ray in this pixel. 0: the ray ends before all bodies. `has_gaps`: pixels without a
+  /// ray are places that the sensor did not look at, as between the rows of a laser scanner.
   DepthView(const PinholeCamera& camera, std::vector<float> depths, bool has_gaps = false);
 
   /// Whether a point is in front of the camera and in its image.
@@ -33,10 +36,14 @@ class DepthView
   /// Whether a voxel, with a pixel around it, is in front of the camera and in its image. See seesBehind().
   bool showsAll(const VoxelInView& voxel) const;
 
+  /// The number of pixels near a voxel: in the bounding rectangle of its box in the image, enlarged by a pixel on each
+  /// side. 0: the image does not show its centre.
+  double pixelsNear(const VoxelInView& voxel) const;
+
   /// Whether the camera sees what is behind a voxel. True if the image shows its centre, at least one ray is measured
-  /// near the voxel, and every measured ray near it ends behind it. "Near" is the bounding rectangle of the voxel's box
-  /// in the image, enlarged by a pixel. So the camera does not see behind a voxel at the edge of a nearer surface, nor
-  /// through a surface at a grazing angle. If the rays have gaps, at least one ray must also pass through the voxel.
+  /// near the voxel, every measured ray near it ends behind it, and at most `hidden_share` of the pixels near it are
+  /// not measured. So the camera does not see behind a voxel at the edge of a nearer surface, nor through a surface at
+  /// a grazing angle. If the rays have gaps, at least one ray must also pass through the voxel.
   bool seesBehind(const VoxelInView& voxel) const;
 
  private:
@@ -61,14 +68,44 @@ class DepthView
     int y;
   };
 
-  /// The part of an interval that is in the image.
-  static PixelRange within(double first, double last, int size);
+  struct PixelRectangle
+  {
+    PixelRange columns;
+    PixelRange rows;
+  };
+
+  static double areaOf(const PixelRectangle& pixels)
+  {
+    const auto& [columns, rows] = pixels;
+    return (columns.last - columns.first + 1.0) * (rows.last - rows.first + 1.0);
+  }
+  struct PixelInterval
+  {
+    double first;
+    double last;
+  };
+  struct PixelIntervals
+  {
+    PixelInterval columns;
+    PixelInterval rows;
+  };
+
+  static PixelInterval intervalOf(double centre, double extent, double near, double far, double focal_length,
+                                  double principal_point);
+  static bool isInFront(const VoxelInView& voxel);
+  PixelIntervals intervalsNear(const VoxelInView& voxel) const;
+  PixelRectangle rectangleNear(const VoxelInView& voxel) const;
+  void countUnmeasured(std::vector<float>& depths);
+  std::uint32_t unmeasuredIn(const PixelRectangle& pixels) const;
   float smallestOf(const Square& square) const;
-  bool endBehind(const Square& square, const PixelRange& columns, const PixelRange& rows, double far) const;
+  bool endBehind(const Square& square, const PixelRectangle& pixels, double far) const;
   bool passesThrough(const Eigen::Vector3d& centre, double radius) const;
 
   PinholeCamera camera_;
   bool has_gaps_;
   std::vector<Level> levels_;
+  /// For each corner of pixels: how many pixels to the left of it and above it are not measured. The sum over a
+  /// rectangle takes four reads: F. Crow, Summed-area tables for texture mapping. SIGGRAPH 1984. Empty: none.
+  std::vector<std::uint32_t> unmeasured_;
 };
 }  // namespace gpu_planning_scene::core

@@ -29,6 +29,9 @@ constexpr std::uint8_t kMaxEvidence = 3;
 // set back.
 constexpr double kMaxDelay = 2.0;
 
+// A body that was measured in a voxel does not hide where this fraction of the pixels that it took is not measured now.
+constexpr double kHiddenFraction = 0.5;
+
 bool isBefore(double time, double other)
 {
   return time < other && other - time <= kMaxDelay;
@@ -41,13 +44,15 @@ struct Voxel
   double received;        // seconds: SensorView::received of the last hit
   std::uint8_t evidence;  // 1 to kMaxEvidence
   bool is_whole;          // a sensor that hit it saw the whole voxel
+  float share;            // see Hit; of the last hit that is not near the robot
 };
 
 struct Hit
 {
   std::uint64_t key;
   bool is_whole;
-  bool may_be_robot;  // within the padding of the robot
+  float share;                // of the pixels near the voxel: those with a point in it; 0 for a cloud
+  bool may_be_robot = false;  // within the padding of the robot
 };
 
 /// Places voxels in the frame of a camera.
@@ -58,7 +63,10 @@ struct VoxelProjection
   Vector3d extent;       // see VoxelInView
   double inner_radius;
 
-  VoxelInView view(const Vector3d& centre) const { return {to_camera * centre, extent, inner_radius}; }
+  VoxelInView view(const Vector3d& centre, double hidden_share = 0.0) const
+  {
+    return {to_camera * centre, extent, inner_radius, hidden_share};
+  }
 };
 
 bool hasSmallerKey(const Voxel& a, const Voxel& b)
@@ -115,24 +123,26 @@ std::vector<VoxelProjection> OccupancyMap::Impl::projectionsOf(const Measurement
 /// border.
 std::vector<Hit> OccupancyMap::Impl::hitVoxels(const Measurement& measurement, const Isometry3d& sensor) const
 {
-  VoxelKeys keys;
+  VoxelCounts filled;
   for (const Vector3d& point : measurement.points)
   {
     const Vector3d placed = sensor * point;
     if (options.region.contains(placed))
-      keys.add(grid.keyOf(placed));
+      filled.add(grid.keyOf(placed));
   }
   std::vector<Hit> hits;
   const std::vector<VoxelProjection> projections = projectionsOf(measurement, sensor);
-  for (const std::uint64_t key : keys.take())
+  for (const auto& [key, points] : filled.take())
   {
-    const Vector3d centre = grid.centreOf(key);
-    const auto is_shown = [&](const VoxelProjection& to) { return to.depths.shows(to.view(centre).centre); };
-    const auto is_whole = [&](const VoxelProjection& to) { return to.depths.showsAll(to.view(centre)); };
     if (measurement.looks_everywhere)
-      hits.push_back({key, true, false});
-    else if (std::any_of(projections.begin(), projections.end(), is_shown))
-      hits.push_back({key, std::any_of(projections.begin(), projections.end(), is_whole), false});
+    {
+      hits.push_back({key, true, 0.0F});
+      continue;
+    }
+    const VoxelProjection& to = projections.front();
+    const VoxelInView voxel = to.view(grid.centreOf(key));
+    if (const double pixels = to.depths.pixelsNear(voxel); pixels > 0.0)
+      hits.push_back({key, to.depths.showsAll(voxel), static_cast<float>(points / pixels)});
   }
   return hits;
 }
@@ -150,7 +160,7 @@ std::vector<Voxel> OccupancyMap::Impl::takeKnown(std::vector<Hit>& hits, const M
     return std::any_of(projections.begin(), projections.end(),
                        [&](const VoxelProjection& to)
                        {
-                         const VoxelInView seen = to.view(centre);
+                         const VoxelInView seen = to.view(centre, kHiddenFraction * static_cast<double>(voxel.share));
                          return to.depths.seesBehind(seen) &&
                                 (!voxel.is_whole || measurement.looks_everywhere || to.depths.showsAll(seen));
                        });
@@ -169,6 +179,7 @@ std::vector<Voxel> OccupancyMap::Impl::takeKnown(std::vector<Hit>& hits, const M
       voxel.received = view.received;
       voxel.evidence = std::min<std::uint8_t>(voxel.evidence + 1, kMaxEvidence);
       voxel.is_whole = voxel.is_whole || hit->is_whole;
+      voxel.share = hit->may_be_robot ? voxel.share : hit->share;
       ++hit;
     }
     else if (options.decay > 0.0 && view.received - voxel.received > options.decay)
@@ -206,7 +217,7 @@ std::size_t OccupancyMap::Impl::add(const Measurement& measurement, const Sensor
 
   const auto middle = static_cast<std::ptrdiff_t>(known.size());
   for (const Hit& hit : hits)
-    known.push_back({hit.key, view.time, view.received, 1, hit.is_whole});
+    known.push_back({hit.key, view.time, view.received, 1, hit.is_whole, hit.share});
   std::inplace_merge(known.begin(), known.begin() + middle, known.end(), hasSmallerKey);
   const std::size_t without_room = known.size() - std::min(known.size(), options.max_voxels);
   if (without_room > 0)

@@ -28,25 +28,28 @@ struct PointCloudFilter::Impl
 {
   explicit Impl(const PointCloudOptions& given) : options(given), grid(given.voxel) {}
 
-  std::vector<std::uint64_t> voxelsOf(const std::vector<Eigen::Vector3f>& points, const Isometry3d& sensor) const;
+  std::vector<Vector3d> centresOf(const std::vector<Eigen::Vector3f>& points, const Isometry3d& sensor) const;
 
   const PointCloudOptions options;
   const VoxelGrid grid;
   BodyFilter bodies;
 };
 
-/// The keys of the occupied voxels, in ascending order, each once.
-std::vector<std::uint64_t> PointCloudFilter::Impl::voxelsOf(const std::vector<Eigen::Vector3f>& points,
-                                                            const Isometry3d& sensor) const
+/// The centres of the occupied voxels, in ascending order of their keys, each once.
+std::vector<Vector3d> PointCloudFilter::Impl::centresOf(const std::vector<Eigen::Vector3f>& points,
+                                                        const Isometry3d& sensor) const
 {
-  VoxelKeys keys;
+  VoxelCounts filled;
   for (const Eigen::Vector3f& point : points)
   {
     const Vector3d local = point.cast<double>();
     if (local.allFinite() && local.norm() <= options.max_distance)
-      keys.add(grid.keyOf(sensor * local));
+      filled.add(grid.keyOf(sensor * local));
   }
-  return keys.take();
+  std::vector<Vector3d> centres;
+  for (const FilledVoxel& voxel : filled.take())
+    centres.push_back(grid.centreOf(voxel.key));
+  return centres;
 }
 
 PointCloudFilter::PointCloudFilter(const PointCloudOptions& options)
@@ -63,14 +66,10 @@ WorldObject PointCloudFilter::objectOf(const std::string& id, const std::vector<
                                        const Isometry3d& sensor, const PlanningScene& scene, const double* state)
 {
   validateStates(*scene.robot, state, 1);
-  const std::vector<std::uint64_t> voxels = impl_->voxelsOf(points, nearestRigid(sensor, "the sensor's pose"));
-  if (voxels.size() > impl_->options.max_voxels)
-    throw Error("the cloud fills " + std::to_string(voxels.size()) + " voxels, but at most " +
+  std::vector<Vector3d> centres = impl_->centresOf(points, nearestRigid(sensor, "the sensor's pose"));
+  if (centres.size() > impl_->options.max_voxels)
+    throw Error("the cloud fills " + std::to_string(centres.size()) + " voxels, but at most " +
                 std::to_string(impl_->options.max_voxels) + " are allowed; use larger voxels or a shorter range");
-  std::vector<Vector3d> centres;
-  centres.reserve(voxels.size());
-  for (const std::uint64_t voxel : voxels)
-    centres.push_back(impl_->grid.centreOf(voxel));
   removeFlagged(centres, impl_->bodies.near(impl_->grid, centres, scene, state, impl_->options.robot_padding, {}));
   WorldObject object;
   object.id = id;

@@ -18,7 +18,7 @@ constexpr float kInfinite = std::numeric_limits<float>::infinity();
 /// A cube whose edges are parallel to the camera's axes. The ball inside it has the radius.
 VoxelInView cubeAt(const Vector3d& centre, double radius)
 {
-  return {centre, Vector3d::Constant(radius), radius};
+  return {centre, Vector3d::Constant(radius), radius, 0.0};
 }
 
 /// The number of rays that pass within `radius` of the ball's centre and end in front of its far side, pixel by pixel.
