@@ -34,14 +34,14 @@ void DeviceRows::copy(const StateRange& states, double* to)
 }
 
 std::unique_ptr<DeviceRows> rowsForDevices(const StateBatch& asked, const Margins* margins, const RobotModel& robot,
-                                           const CollisionProblem& problem)
+                                           std::shared_ptr<const CollisionProblem> problem)
 {
   const std::size_t width = robot.variables().size();
-  const auto suits_devices = [states = asked.states, width, margins, &problem,
+  const auto suits_devices = [states = asked.states, width, margins, problem = std::move(problem),
                               placeable = PlaceableStates(robot)](std::size_t row)
   {
     const double* const state = states + row * width;
-    return (margins ? margins->within[row] != 0 : isValidFor(problem, state)) && placeable.contains(state);
+    return (margins ? margins->within[row] != 0 : isValidFor(*problem, state)) && placeable.contains(state);
   };
   return std::make_unique<DeviceRows>(asked.states, asked.count, width, suits_devices);
 }

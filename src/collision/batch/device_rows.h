@@ -40,7 +40,7 @@ class DeviceRows
 
 /// Only cores can check a state for which the problem is not valid, or which devices cannot place. With margins, states
 /// outside the joints' limits have no displacement bounds, and the cores report them as not free. The result refers to
-/// all arguments.
+/// the states and the margins.
 std::unique_ptr<DeviceRows> rowsForDevices(const StateBatch& asked, const Margins* margins, const RobotModel& robot,
-                                           const CollisionProblem& problem);
+                                           std::shared_ptr<const CollisionProblem> problem);
 }  // namespace gpu_planning_scene::core

@@ -72,7 +72,7 @@ class Scheduler::DeviceJoin
     if (!task_.robot)
     {
       task_ = scheduler_.taskOf(asked_.group);
-      batch_->setDeviceRows(rowsForDevices(asked_, batch_->margins(), *task_.robot, *task_.group));
+      batch_->setDeviceRows(rowsForDevices(asked_, batch_->margins(), *task_.robot, task_.group));
     }
     if (devices.join(batch_, task_, asked_.group))
       has_joined_ = true;

@@ -462,6 +462,55 @@ TEST_F(OccupancyMapOfACamera, KeepsAThinThingThatItCannotMeasure)
   EXPECT_EQ(before, map.size());
 }
 
+/// Real images have patches that are not measured, beside edges and on dark or shining bodies.
+TEST_F(OccupancyMapOfACamera, LosesAThingThatWasLargerThanThePatchesThatAreNotMeasuredNow)
+{
+  const PinholeCamera camera{320, 240, 300.0, 300.0, 159.5, 119.5};
+  const auto see_columns = [&](OccupancyMap& map, float depth, int first, int count, float other)
+  {
+    DepthImage image{camera, std::vector<float>(std::size_t{320} * 240, depth)};
+    for (int y = 0; y < camera.height; ++y)
+      std::fill_n(image.depths.begin() + static_cast<std::ptrdiff_t>(camera.pixel(first, y)), count, other);
+    view_.time += 1.0;
+    map.add(image, view_, scene_, state_.data());
+  };
+  // The voxel's box takes the columns 129 to 160, as seen from the origin: y from 0 to 0.1 m, x from 1 to 1.1 m.
+  const Vector3d voxel(1.05, 0.05, 0.05);
+  for (const bool is_thin : {false, true})
+  {
+    OccupancyMap map(options_);
+    if (is_thin)
+      see_columns(map, 4.05F, 140, 8, 1.05F);  // a rod
+    else
+      see_columns(map, 4.05F, 100, 120, 1.05F);  // a wall
+    ASSERT_TRUE(isOccupied(map, voxel));
+    for (int i = 0; i < 5; ++i)
+      see_columns(map, 4.05F, 140, 8, kNaN);
+    EXPECT_EQ(isOccupied(map, voxel), is_thin);
+  }
+}
+
+/// Otherwise a rod that the camera cannot measure any more would be forgotten after the robot has passed it.
+TEST_F(OccupancyMapOfACamera, PointsNearTheRobotDoNotMakeAThingLarger)
+{
+  OccupancyMap map(options_);
+  const auto see_rod = [&](float rod, float wall)
+  {
+    DepthImage image{{320, 240, 300.0, 300.0, 159.5, 119.5}, std::vector<float>(std::size_t{320} * 240, wall)};
+    for (int y = 0; y < 240; ++y)
+      std::fill_n(image.depths.begin() + static_cast<std::ptrdiff_t>(image.camera.pixel(140, y)), 8, rod);
+    view_.time += 1.0;
+    map.add(image, view_, scene_, state_.data());
+  };
+  see_rod(1.05F, 4.05F);
+  placeTip({1.55, 0.05, 0.05});  // its near side is at 1.05 m
+  see_rod(1.05F, 1.05F);
+  placeTip({100.0, 100.0, 100.0});
+  for (int i = 0; i < 5; ++i)
+    see_rod(kNaN, 4.05F);
+  EXPECT_TRUE(isOccupied(map, {1.05, 0.05, 0.05}));
+}
+
 TEST_F(OccupancyMapOfACamera, KeepsAVoxelBetweenTheRowsOfAScanner)
 {
   // Rows of points 2 degrees apart pass above and below a small voxel.

@@ -136,13 +136,15 @@ void GpuKinematics::begin(std::size_t begin, std::size_t count)
   next_upload_ = 1 - next_upload_;
   upload.reserve((count * width + 1) * sizeof(double));
   const std::size_t row_bytes = width * sizeof(double);
-  const std::size_t most = std::max<std::size_t>(1, StagingRing::kLargestPieceBytes / std::max<std::size_t>(1, row_bytes));
+  const std::size_t most =
+      std::max<std::size_t>(1, StagingRing::kLargestPieceBytes / std::max<std::size_t>(1, row_bytes));
   for (std::size_t first = 0; first < count; first += most)
   {
     const std::size_t rows = std::min(most, count - first);
     upload.buffer().write(rows * row_bytes, first * row_bytes,
-                          [&](void* to)
-                          { copyOnAllCores({begin + first, rows}, width, static_cast<double*>(to)); });
+                          [&](void* to) {
+                            copyOnAllCores({begin + first, rows}, width, static_cast<double*>(to));
+                          });
   }
   upload.bindTexture(UNIT_STATES);
   count_ = count;
@@ -150,9 +152,11 @@ void GpuKinematics::begin(std::size_t begin, std::size_t count)
 
 void GpuKinematics::copyOnAllCores(const StateRange& states, std::size_t width, double* to) const
 {
-  parallelFor(states.count, kRowsPerChunk,
-              [&](std::size_t from, std::size_t end)
-              { copy_({states.begin + from, end - from}, to + from * width); });
+  parallelFor(
+      states.count, kRowsPerChunk,
+      [&](std::size_t from, std::size_t end) {
+        copy_({states.begin + from, end - from}, to + from * width);
+      });
 }
 
 void GpuKinematics::bind(TexelBuffer& poses, bool listed)
