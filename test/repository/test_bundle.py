@@ -186,10 +186,11 @@ class ReportTest(unittest.TestCase):
         status, report = self.report('echo "device: llvmpipe (a test), seed 1"; echo "output of $*"')
         self.assertEqual(status, 0, report)
         self.assertRegex(report.split("== stability")[0], "device: llvmpipe .a test., seed 1\nwarning: no GPU was used")
-        for program in ("stability --quick", "exactness --quick", "benchmark --quick"):
+        for program in ("stability --quick", "exactness --quick"):
             self.assertIn(f"output of {program} --device 1\n", report)
-        self.assertRegex(report, "output of planning_study .*--device 1\n")
-        self.assertEqual(report.count(" passed "), 4, report)
+        for program in ("benchmark --quick", "benchmark --parts throughput,kernels", "planning_study"):
+            self.assertRegex(report, f"output of {program} .*--device 1\n")
+        self.assertEqual(report.count(" passed "), 5, report)
         self.assertEqual(self.again.returncode, 2)
         self.assertIn("exists; name another folder", self.again.stderr)
 
@@ -197,7 +198,8 @@ class ReportTest(unittest.TestCase):
         status, report = self.report('case $1 in exactness) exit 1 ;; benchmark) exit 124 ;; esac')
         self.assertEqual(status, 1)
         self.assertRegex(report, "exactness +failed with exit status 1")
-        self.assertRegex(report, "benchmark +stopped after 110 s")
+        self.assertRegex(report, "benchmark +stopped after 60 s")
+        self.assertRegex(report, "rates +stopped after 110 s")
         self.assertRegex(report, "planning_study +passed")
 
 

@@ -16,6 +16,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::chrono::seconds kFindAction{1};  // for the connection to an action server
+constexpr int kContactPeriods = 4;  // of ~watch/rate: the longest time without a contact
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool isFault(const WatchState& state)
@@ -162,7 +163,9 @@ void TrajectoryWatcher::run()
     lock.unlock();
 
     take(orders);
-    const bool with_contact = is_due || Clock::now() >= contact_due;  // also while changes come all the time
+    // A change is answered without a contact, because its search takes as long as the check. The contact follows at
+    // once, unless changes come all the time.
+    const bool with_contact = is_due || Clock::now() >= contact_due + kContactPeriods * period;
     if (with_contact)
       contact_due = Clock::now() + period;
     WatchState state = look(with_contact);
@@ -174,7 +177,8 @@ void TrajectoryWatcher::run()
     publisher_.publish(state);
     for (Order& order : orders)
       order.answer.set_value(state);
-    due = Clock::now() + period;
+    const Clock::time_point now = Clock::now();
+    due = state.verdict == WatchState::COLLISION ? std::clamp(contact_due, now, now + period) : now + period;
     lock.lock();
   }
 }
