@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -29,8 +30,10 @@ constexpr int kSheetFrames = 20;     // of a period in which a sheet hides a par
 constexpr float kSheetDepth = 0.9F;  // metres
 constexpr double kPadding = 0.03;    // metres
 constexpr int kViewsToClear = 3;
-// A body is gone, although this fraction of the pixels that it took is not measured. The map allows a half.
-constexpr double kHiddenFraction = 0.4;
+// The sheet fills a voxel if it takes this share of the voxel's pixels. The map then allows less than a third of it to
+// be unmeasured. Both bounds are stricter than those of the map.
+constexpr double kFilledShare = 0.5;
+constexpr double kUnmeasuredShare = 0.1;
 
 using Voxel = std::array<long, 3>;
 
@@ -109,8 +112,9 @@ bool hasNeighbour(const std::set<Voxel>& voxels, const Voxel& voxel)
 struct SheetVoxel
 {
   int last_image = -1;
-  int pixels = 0;        // of the sheet, in the last image with it
-  int views_behind = 0;  // images since then that saw through the voxel
+  int pixels = std::numeric_limits<int>::max();  // of the sheet, in the last image with it
+  int fewest_pixels = pixels;                    // in an image before
+  int views_behind = 0;                          // images since then that saw through the voxel
 };
 
 struct Differences
@@ -147,7 +151,7 @@ class Playback
                                 static_cast<int>(pan * (recording_.camera.height - kHeight)));
     addRobotAndSheet(image, number);
     for (auto& [voxel, sheet] : sheet_)
-      if (sheet.last_image != number && isSeenThrough(image, voxel, sheet.pixels))
+      if (sheet.last_image != number && isSeenThrough(image, voxel, std::min(sheet.pixels, sheet.fewest_pixels)))
         differences_.seen_through += ++sheet.views_behind == kViewsToClear ? 1 : 0;
     const auto start = std::chrono::steady_clock::now();
     const double time = number / 15.0;  // 15 images a second
@@ -219,12 +223,12 @@ class Playback
   {
     SheetVoxel& sheet = sheet_[voxel];
     if (sheet.last_image != number)
-      sheet = {number, 0, 0};
+      sheet = {number, 0, std::min(sheet.fewest_pixels, sheet.pixels), 0};
     ++sheet.pixels;
   }
 
-  /// Whether all measured pixels around the voxel end behind it, and few enough are not measured for a sheet of so many
-  /// pixels.
+  /// Whether all measured pixels around the voxel end behind it, and few enough are not measured after a sheet that
+  /// took at least so many pixels of the voxel in each image.
   bool isSeenThrough(const DepthImage& image, const Voxel& voxel, int sheet_pixels) const
   {
     Eigen::AlignedBox2d pixels;
@@ -252,7 +256,8 @@ class Playback
           return false;
         unmeasured += std::isnan(depth) ? 1 : 0;
       }
-    return unmeasured <= kHiddenFraction * sheet_pixels;
+    const double own_pixels = pixels.sizes().prod();
+    return sheet_pixels >= kFilledShare * own_pixels && unmeasured <= kUnmeasuredShare * own_pixels;
   }
 
   void compare(const std::vector<PlacedShape>& cubes)

@@ -17,17 +17,6 @@ std::size_t pixelOf(int x, int y, int width)
 }
 }  // namespace
 
-/// The pixels in which the interval [centre - extent, centre + extent] at the depths [near, far] may appear, and one
-/// more on each side. They may be outside the image.
-DepthView::PixelInterval DepthView::intervalOf(double centre, double extent, double near, double far,
-                                               double focal_length, double principal_point)
-{
-  const double low = centre - extent;
-  const double high = centre + extent;
-  return {std::floor(principal_point + focal_length * std::min(low / near, low / far)) - 1.0,
-          std::ceil(principal_point + focal_length * std::max(high / near, high / far)) + 1.0};
-}
-
 DepthView::DepthView(const PinholeCamera& camera, std::vector<float> depths, bool has_gaps)
   : camera_(camera), has_gaps_(has_gaps)
 {
@@ -104,12 +93,30 @@ bool DepthView::isInFront(const VoxelInView& voxel)
   return voxel.centre.z() > voxel.extent.z();
 }
 
-DepthView::PixelIntervals DepthView::intervalsNear(const VoxelInView& voxel) const
+/// Where the voxel's box appears in the image plane, in pixels.
+DepthView::PixelIntervals DepthView::intervalsOf(const VoxelInView& voxel) const
 {
   const double near = voxel.centre.z() - voxel.extent.z();
   const double far = voxel.centre.z() + voxel.extent.z();
-  return {intervalOf(voxel.centre.x(), voxel.extent.x(), near, far, camera_.fx, camera_.cx),
-          intervalOf(voxel.centre.y(), voxel.extent.y(), near, far, camera_.fy, camera_.cy)};
+  const auto interval_of = [&](double centre, double extent, double focal_length, double principal_point)
+  {
+    const double low = centre - extent;
+    const double high = centre + extent;
+    return PixelInterval{principal_point + focal_length * std::min(low / near, low / far),
+                         principal_point + focal_length * std::max(high / near, high / far)};
+  };
+  return {interval_of(voxel.centre.x(), voxel.extent.x(), camera_.fx, camera_.cx),
+          interval_of(voxel.centre.y(), voxel.extent.y(), camera_.fy, camera_.cy)};
+}
+
+/// The pixels of intervalsOf(), and one more on each side. They may be outside the image.
+DepthView::PixelIntervals DepthView::intervalsNear(const VoxelInView& voxel) const
+{
+  const auto near = [](const PixelInterval& interval) {
+    return PixelInterval{std::floor(interval.first) - 1.0, std::ceil(interval.last) + 1.0};
+  };
+  const auto& [columns, rows] = intervalsOf(voxel);
+  return {near(columns), near(rows)};
 }
 
 /// The part of it that is in the image.
@@ -125,12 +132,13 @@ DepthView::PixelRectangle DepthView::rectangleNear(const VoxelInView& voxel) con
   return {within(columns, camera_.width), within(rows, camera_.height)};
 }
 
-double DepthView::pixelsNear(const VoxelInView& voxel) const
+double DepthView::pixelsOf(const VoxelInView& voxel) const
 {
-  return isInFront(voxel) && shows(voxel.centre) ? areaOf(rectangleNear(voxel)) : 0.0;
+  const auto& [columns, rows] = intervalsOf(voxel);
+  return (columns.last - columns.first) * (rows.last - rows.first);
 }
 
-bool DepthView::seesBehind(const VoxelInView& voxel) const
+bool DepthView::seesBehind(const VoxelInView& voxel, double most_unmeasured) const
 {
   if (!isInFront(voxel) || !shows(voxel.centre))
     return false;
@@ -147,7 +155,7 @@ bool DepthView::seesBehind(const VoxelInView& voxel) const
         return false;
       has_ray = has_ray || std::isfinite(smallestOf({level, x, y}));
     }
-  return has_ray && unmeasuredIn(pixels) <= voxel.hidden_share * areaOf(pixels) &&
+  return has_ray && unmeasuredIn(pixels) <= most_unmeasured &&
          (!has_gaps_ || passesThrough(voxel.centre, voxel.inner_radius));
 }
 

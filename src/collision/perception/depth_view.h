@@ -15,8 +15,6 @@ struct VoxelInView
   Eigen::Vector3d centre;
   Eigen::Vector3d extent;  ///< half lengths of its bounding box along the camera's axes
   double inner_radius;     ///< of the ball inside it
-  /// The share of the pixels near the voxel that a body in it may take without being measured. See seesBehind().
-  double hidden_share;
 };
 
 /// The depths that a pinhole camera has measured, and the smallest depth of each square of 2, 4, 8, ... pixels. So a
@@ -36,15 +34,15 @@ class DepthView
   /// Whether a voxel, with a pixel around it, is in front of the camera and in its image. See seesBehind().
   bool showsAll(const VoxelInView& voxel) const;
 
-  /// The number of pixels near a voxel: in the bounding rectangle of its box in the image, enlarged by a pixel on each
-  /// side. 0: the image does not show its centre.
-  double pixelsNear(const VoxelInView& voxel) const;
+  /// The size of the bounding rectangle of a voxel's box in the image, in pixels. The voxel must be shown: showsAll().
+  double pixelsOf(const VoxelInView& voxel) const;
 
-  /// Whether the camera sees what is behind a voxel. True if the image shows its centre, at least one ray is measured
-  /// near the voxel, every measured ray near it ends behind it, and at most `hidden_share` of the pixels near it are
-  /// not measured. So the camera does not see behind a voxel at the edge of a nearer surface, nor through a surface at
-  /// a grazing angle. If the rays have gaps, at least one ray must also pass through the voxel.
-  bool seesBehind(const VoxelInView& voxel) const;
+  /// Whether the camera sees what is behind a voxel. True if the image shows its centre, a ray near the voxel is
+  /// measured, all measured rays near it end behind it, and at most `most_unmeasured` pixels near it are not measured.
+  /// "Near" is the bounding rectangle of the voxel's box in the image, enlarged by a pixel. So the camera does not see
+  /// behind a voxel at the edge of a nearer surface, nor through a surface at a grazing angle. If the rays have gaps,
+  /// at least one ray must also pass through the voxel.
+  bool seesBehind(const VoxelInView& voxel, double most_unmeasured = 0.0) const;
 
  private:
   struct Level
@@ -74,11 +72,6 @@ class DepthView
     PixelRange rows;
   };
 
-  static double areaOf(const PixelRectangle& pixels)
-  {
-    const auto& [columns, rows] = pixels;
-    return (columns.last - columns.first + 1.0) * (rows.last - rows.first + 1.0);
-  }
   struct PixelInterval
   {
     double first;
@@ -90,9 +83,8 @@ class DepthView
     PixelInterval rows;
   };
 
-  static PixelInterval intervalOf(double centre, double extent, double near, double far, double focal_length,
-                                  double principal_point);
   static bool isInFront(const VoxelInView& voxel);
+  PixelIntervals intervalsOf(const VoxelInView& voxel) const;
   PixelIntervals intervalsNear(const VoxelInView& voxel) const;
   PixelRectangle rectangleNear(const VoxelInView& voxel) const;
   void countUnmeasured(std::vector<float>& depths);

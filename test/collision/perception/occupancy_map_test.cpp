@@ -463,51 +463,96 @@ TEST_F(OccupancyMapOfACamera, KeepsAThinThingThatItCannotMeasure)
 }
 
 /// Real images have patches that are not measured, beside edges and on dark or shining bodies.
-TEST_F(OccupancyMapOfACamera, LosesAThingThatWasLargerThanThePatchesThatAreNotMeasuredNow)
+class OccupancyMapOfAnImageWithPatches : public OccupancyMapOfACamera
 {
-  const PinholeCamera camera{320, 240, 300.0, 300.0, 159.5, 119.5};
-  const auto see_columns = [&](OccupancyMap& map, float depth, int first, int count, float other)
+ protected:
+  /// All pixels have a depth of 4.05 m, except `count` columns.
+  void see(OccupancyMap& map, int first, int count, float depth)
   {
-    DepthImage image{camera, std::vector<float>(std::size_t{320} * 240, depth)};
-    for (int y = 0; y < camera.height; ++y)
-      std::fill_n(image.depths.begin() + static_cast<std::ptrdiff_t>(camera.pixel(first, y)), count, other);
+    DepthImage image{kFine, std::vector<float>(std::size_t{320} * 240, 4.05F)};
+    for (int y = 0; y < kFine.height; ++y)
+      std::fill_n(image.depths.begin() + static_cast<std::ptrdiff_t>(kFine.pixel(first, y)), count, depth);
     view_.time += 1.0;
     map.add(image, view_, scene_, state_.data());
-  };
-  // The voxel's box takes the columns 129 to 160, as seen from the origin: y from 0 to 0.1 m, x from 1 to 1.1 m.
-  const Vector3d voxel(1.05, 0.05, 0.05);
-  for (const bool is_thin : {false, true})
-  {
-    OccupancyMap map(options_);
-    if (is_thin)
-      see_columns(map, 4.05F, 140, 8, 1.05F);  // a rod
-    else
-      see_columns(map, 4.05F, 100, 120, 1.05F);  // a wall
-    ASSERT_TRUE(isOccupied(map, voxel));
-    for (int i = 0; i < 5; ++i)
-      see_columns(map, 4.05F, 140, 8, kNaN);
-    EXPECT_EQ(isOccupied(map, voxel), is_thin);
   }
+  void seeRod(OccupancyMap& map) { see(map, 140, 8, 1.05F); }
+  void seeWall(OccupancyMap& map) { see(map, 100, 120, 1.05F); }
+  void seePatch(OccupancyMap& map)
+  {
+    for (int i = 0; i < 5; ++i)
+      see(map, 142, 3, kNaN);
+  }
+
+  static constexpr PinholeCamera kFine{320, 240, 300.0, 300.0, 159.5, 119.5};
+  // As seen from the origin, its box takes the columns 129 to 160, and is as high.
+  const Vector3d voxel_{1.05, 0.05, 0.05};
+  OccupancyMap map_{options_};
+};
+
+TEST_F(OccupancyMapOfAnImageWithPatches, LosesAThingThatIsTooLargeToHideThere)
+{
+  seeWall(map_);
+  ASSERT_TRUE(isOccupied(map_, voxel_));
+  seePatch(map_);
+  EXPECT_FALSE(isOccupied(map_, voxel_));
+}
+
+TEST_F(OccupancyMapOfAnImageWithPatches, KeepsAThingIfThePatchIsLarge)
+{
+  seeWall(map_);
+  for (int i = 0; i < 5; ++i)
+    see(map_, 138, 8, kNaN);
+  EXPECT_TRUE(isOccupied(map_, voxel_));
+}
+
+TEST_F(OccupancyMapOfAnImageWithPatches, KeepsAThinThingAlsoAfterALargeOneHasPassed)
+{
+  for (int i = 0; i < 3; ++i)
+    seeRod(map_);
+  seePatch(map_);
+  EXPECT_TRUE(isOccupied(map_, voxel_));
+  seeWall(map_);
+  seePatch(map_);
+  EXPECT_TRUE(isOccupied(map_, voxel_));
+}
+
+/// From the side, a plate is thin.
+TEST_F(OccupancyMapOfAnImageWithPatches, KeepsAThingThatWasLargeFromAnotherPlace)
+{
+  seeWall(map_);
+  view_.sensor = cameraPose({0.0, -0.25, 0.0}, voxel_ - Vector3d(0.0, 0.05, 0.05));
+  see(map_, 158, 3, kNaN);
+  see(map_, 158, 3, kNaN);
+  EXPECT_TRUE(isOccupied(map_, voxel_));
+}
+
+TEST_F(OccupancyMapOfAnImageWithPatches, ALateImageDoesNotMakeAThingLarger)
+{
+  view_.time = 10.0;
+  seeRod(map_);
+  view_.time = 8.5;
+  seeWall(map_);
+  view_.time = 11.0;
+  seePatch(map_);
+  EXPECT_TRUE(isOccupied(map_, voxel_));
 }
 
 /// Otherwise a rod that the camera cannot measure any more would be forgotten after the robot has passed it.
-TEST_F(OccupancyMapOfACamera, PointsNearTheRobotDoNotMakeAThingLarger)
+TEST_F(OccupancyMapOfAnImageWithPatches, PointsNearTheRobotDoNotMakeAThingLarger)
+{
+  seeRod(map_);
+  placeTip({1.55, 0.05, 0.05});  // its near side is at 1.05 m
+  seeWall(map_);
+  placeTip({100.0, 100.0, 100.0});
+  seePatch(map_);
+  EXPECT_TRUE(isOccupied(map_, voxel_));
+}
+
+TEST_F(OccupancyMapOfACamera, TakesPointsOfAVoxelThatReachesTheCamera)
 {
   OccupancyMap map(options_);
-  const auto see_rod = [&](float rod, float wall)
-  {
-    DepthImage image{{320, 240, 300.0, 300.0, 159.5, 119.5}, std::vector<float>(std::size_t{320} * 240, wall)};
-    for (int y = 0; y < 240; ++y)
-      std::fill_n(image.depths.begin() + static_cast<std::ptrdiff_t>(image.camera.pixel(140, y)), 8, rod);
-    view_.time += 1.0;
-    map.add(image, view_, scene_, state_.data());
-  };
-  see_rod(1.05F, 4.05F);
-  placeTip({1.55, 0.05, 0.05});  // its near side is at 1.05 m
-  see_rod(1.05F, 1.05F);
-  placeTip({100.0, 100.0, 100.0});
-  for (int i = 0; i < 5; ++i)
-    see_rod(kNaN, 4.05F);
+  view_.sensor = cameraPose({1.02, 0.05, 0.05}, {2.0, 0.05, 0.05});
+  see(map, 4.05F, 0.03F);
   EXPECT_TRUE(isOccupied(map, {1.05, 0.05, 0.05}));
 }
 
