@@ -143,7 +143,7 @@ CheckAnswer CheckWorker::check(CheckBatch& batch, std::size_t count)
 {
   const CheckJob& job = batch.front().job;
   const Snapshot now = takeScene(job);
-  const auto states = std::make_shared<std::vector<double>>(statesOf(batch, now));
+  std::vector<double> states = statesOf(batch, now);
   CheckAnswer answer;
   answer.scene = now.scene;
   if (job.motions)
@@ -156,7 +156,7 @@ CheckAnswer CheckWorker::check(CheckBatch& batch, std::size_t count)
   if (job.report)
     answer.report = checker_->report(job.group);
   if (std::any_of(batch.begin(), batch.end(), [](const CheckRequest& request) { return request.job.keep_states; }))
-    answer.states = *states;  // a device that hangs may still read them
+    answer.states = std::move(states);
   answer.device = checker_->deviceName();
   return answer;
 }
@@ -212,10 +212,9 @@ bool CheckWorker::takesOwnScene()
   }
 }
 
-BatchResult CheckWorker::checkStates(const std::shared_ptr<const std::vector<double>>& states, std::size_t count,
-                                     const std::string& group)
+BatchResult CheckWorker::checkStates(const std::vector<double>& states, std::size_t count, const std::string& group)
 {
-  StateBatch batch{states->data(), count, group};
+  StateBatch batch{states.data(), count, group};
   batch.go_on = [this](std::size_t) { return !queue_.isStopping(); };
   try
   {
@@ -227,19 +226,17 @@ BatchResult CheckWorker::checkStates(const std::shared_ptr<const std::vector<dou
   }
 }
 
-void CheckWorker::checkMotions(const CheckJob& job, const std::shared_ptr<const std::vector<double>>& rows_of,
-                               CheckAnswer& answer)
+void CheckWorker::checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer)
 {
   const auto start = std::chrono::steady_clock::now();
   const MotionChecker checker(checker_, answer.scene->robot, job.group, *job.motions);
-  const std::vector<double>& states = *rows_of;
   const std::size_t width = answer.scene->robot->variables().size();
   const std::size_t rows = width == 0 ? 0 : states.size() / width;
   std::size_t count = rows / 2;
   const double* ends = states.data() + count * width;
   if (job.is_path)
   {
-    answer.result = checkStates(rows_of, rows, job.group);
+    answer.result = checkStates(states, rows, job.group);
     answer.states_checked = rows;
     count = rows == 0 ? 0 : rows - 1;
     ends = states.data() + (rows == 0 ? 0 : width);

@@ -48,10 +48,8 @@ class CheckWorker
   Snapshot takeScene(const CheckJob& job);
   void giveScene(const std::shared_ptr<const PlanningScene>& scene, bool is_own);
   bool takesOwnScene();
-  BatchResult checkStates(const std::shared_ptr<const std::vector<double>>& states, std::size_t count,
-                          const std::string& group);
-  void checkMotions(const CheckJob& job, const std::shared_ptr<const std::vector<double>>& rows_of,
-                    CheckAnswer& answer);
+  BatchResult checkStates(const std::vector<double>& states, std::size_t count, const std::string& group);
+  void checkMotions(const CheckJob& job, const std::vector<double>& states, CheckAnswer& answer);
   void fail(CheckRequest& request, std::exception_ptr error) const;
 
   const SceneStore& store_;

@@ -4,6 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/finally.h"
+#include "collision/problem/rows_without.h"
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -221,20 +224,21 @@ DevicePace Batch::paceOf(std::size_t device) const
   return {};
 }
 
-void Batch::copyForDevice(const StateRange& states, std::size_t width, double* to)
+void Batch::copyForDevice(const StateRange& states, double* to)
 {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (closed_)
-    {
-      std::fill_n(to, states.count * width, 0.0);
-      return;
-    }
+      return rows_->zero(states, to);
     ++using_;
   }
+  const Finally end_use(
+      [this]
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        endUse();
+      });
   rows_->copy(states, to);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  endUse();
 }
 
 void Batch::endUse()
@@ -278,18 +282,17 @@ void Batch::endAnswer(const StateRange& states, const std::vector<std::size_t>& 
     ++open_count;
     addRow(row, open);
   };
-  const bool have_only_for_cores = rows_->haveOnlyForCores();
   try
   {
     for (const std::size_t row : undecided)
-      if (!rows_->isOnlyForCores(row))
+      if (rows_->suits(row))
       {
         reopen(row);
         ++by_choice;
       }
-    for (std::size_t row = states.begin; row < states.end() && have_only_for_cores; ++row)
-      if (rows_->isOnlyForCores(row))
-        reopen(row);
+    for (const std::size_t row :
+         rowsWithout(states.count, [&](std::size_t i) { return rows_->suits(states.begin + i); }))
+      reopen(states.begin + row);
   }
   catch (...)
   {

@@ -61,9 +61,9 @@ class Batch
 
   // For devices, which have numbers.
   /// Must be called before a device joins, once. What the rows refer to must live until the batch is closed.
-  void setDeviceRows(std::unique_ptr<DeviceRows> rows) { rows_ = std::move(rows); }
+  void setDeviceRows(std::unique_ptr<const DeviceRows> rows) { rows_ = std::move(rows); }
   /// Copies states of a part for a device, see DeviceRows; zeros if the batch is closed: the states may be gone then.
-  void copyForDevice(const StateRange& states, std::size_t width, double* to);
+  void copyForDevice(const StateRange& states, double* to);
   /// No part goes to a device that has not joined, or has left.
   void join(std::size_t device);
   bool hasJoined(std::size_t device) const;
@@ -130,7 +130,7 @@ class Batch
   const std::size_t count_;
   const std::optional<Margins> margins_;
   const std::size_t cores_;
-  std::unique_ptr<DeviceRows> rows_;
+  std::unique_ptr<const DeviceRows> rows_;
   BatchResult result_;
 
   mutable std::mutex mutex_;  // guards the members below
@@ -144,7 +144,7 @@ class Batch
   std::vector<Timing> timings_;
   std::size_t answered_ = 0;
   std::size_t answered_by_devices_ = 0;
-  std::size_t using_ = 0;  // devices that read states, or that are between beginAnswer and endAnswer
+  std::size_t using_ = 0;  // threads of devices that read states, and devices between beginAnswer and endAnswer
   bool cores_help_ = true;
   bool closed_ = false;
   std::exception_ptr error_;

@@ -11,7 +11,7 @@
 
 namespace gpu_planning_scene::core
 {
-/// A batch as one device sees it. Used on any thread of the device, one call at a time.
+/// A batch as one device sees it. Used on any thread of the device, one call at a time; `copy` on several at once.
 class DeviceParts
 {
  public:
@@ -26,7 +26,7 @@ class DeviceParts
   BatchResult& result() { return batch_->result(); }
 
   /// See Batch.
-  void copy(const StateRange& states, std::size_t width, double* to) { batch_->copyForDevice(states, width, to); }
+  void copy(const StateRange& states, double* to) { batch_->copyForDevice(states, to); }
   virtual StateRange take(std::size_t most)
   {
     progress_();

@@ -9,23 +9,17 @@ namespace gpu_planning_scene::core
 {
 DeviceRows::DeviceRows(const double* states, std::size_t count, std::size_t width,
                        std::function<bool(std::size_t row)> suits_devices)
-  : states_(states), width_(width), suits_devices_(std::move(suits_devices)), only_cores_(count, 0)
+  : states_(states), count_(count), width_(width), suits_devices_(std::move(suits_devices))
 {
 }
 
-void DeviceRows::copy(const StateRange& states, double* to)
+void DeviceRows::copy(const StateRange& states, double* to) const
 {
   const double* substitute = nullptr;
   for (std::size_t row = states.begin; row < states.end(); ++row, to += width_)
   {
-    const bool suits = suits_devices_(row);
-    if (suits)
+    if (suits(row))
       substitute = states_ + row * width_;
-    else
-    {
-      only_cores_[row] = 1;
-      have_only_for_cores_ = true;
-    }
     if (substitute)
       std::copy_n(substitute, width_, to);
     else
@@ -33,8 +27,23 @@ void DeviceRows::copy(const StateRange& states, double* to)
   }
 }
 
-std::unique_ptr<DeviceRows> rowsForDevices(const StateBatch& asked, const Margins* margins, const RobotModel& robot,
-                                           std::shared_ptr<const CollisionProblem> problem)
+void DeviceRows::zero(const StateRange& states, double* to) const
+{
+  std::fill_n(to, states.count * width_, 0.0);
+}
+
+bool DeviceRows::suitSomewhere() const
+{
+  constexpr std::size_t kSamples = 64;
+  for (std::size_t row = 0; row < count_; row += 1 + count_ / kSamples)
+    if (suits(row))
+      return true;
+  return false;
+}
+
+std::unique_ptr<const DeviceRows> rowsForDevices(const StateBatch& asked, const Margins* margins,
+                                                 const RobotModel& robot,
+                                                 std::shared_ptr<const CollisionProblem> problem)
 {
   const std::size_t width = robot.variables().size();
   const auto suits_devices = [states = asked.states, width, margins, problem = std::move(problem),
@@ -43,6 +52,6 @@ std::unique_ptr<DeviceRows> rowsForDevices(const StateBatch& asked, const Margin
     const double* const state = states + row * width;
     return (margins ? margins->within[row] != 0 : isValidFor(*problem, state)) && placeable.contains(state);
   };
-  return std::make_unique<DeviceRows>(asked.states, asked.count, width, suits_devices);
+  return std::make_unique<const DeviceRows>(asked.states, asked.count, width, suits_devices);
 }
 }  // namespace gpu_planning_scene::core

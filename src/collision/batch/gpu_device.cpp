@@ -13,13 +13,10 @@ namespace
 class GpuParts : public PartSource
 {
  public:
-  GpuParts(const GpuChecker& checker, DeviceParts& parts, std::size_t width)
-    : checker_(checker), parts_(parts), width_(width)
-  {
-  }
+  GpuParts(const GpuChecker& checker, DeviceParts& parts) : checker_(checker), parts_(parts) {}
 
   StateRange take(std::size_t most) override { return parts_.take(most); }
-  void copy(const StateRange& states, double* to) override { parts_.copy(states, width_, to); }
+  void copy(const StateRange& states, double* to) override { parts_.copy(states, to); }
   void bring(const StateRange& brought, const std::uint32_t* verdicts, const GpuWork& work) override
   {
     parts_.add(work);  // before the batch may end
@@ -41,7 +38,6 @@ class GpuParts : public PartSource
  private:
   const GpuChecker& checker_;
   DeviceParts& parts_;
-  const std::size_t width_;  // variables of a state
 };
 
 class GpuDevice : public BatchDevice
@@ -56,7 +52,6 @@ class GpuDevice : public BatchDevice
       scene_.reset();
       checker_.setProblem(task.scene, task.robot);
       scene_ = group_ = task.scene;
-      width_ = task.robot->variables().size();
     }
     if (task.group != group_)
     {
@@ -69,7 +64,7 @@ class GpuDevice : public BatchDevice
 
   void check(DeviceParts& parts) override
   {
-    GpuParts source(checker_, parts, width_);
+    GpuParts source(checker_, parts);
     checker_.check(source, parts.margins());
   }
 
@@ -81,7 +76,6 @@ class GpuDevice : public BatchDevice
   GpuChecker checker_;
   std::shared_ptr<const CollisionProblem> scene_;  // what the checker holds; null: unknown
   std::shared_ptr<const CollisionProblem> group_;
-  std::size_t width_ = 0;  // variables of the robot
 };
 }  // namespace
 

@@ -67,14 +67,17 @@ class Scheduler::DeviceJoin
   {
     DevicePool& devices = scheduler_.devices_;
     devices.abandonOverdue();
-    if (!devices.suits(asked_.group, batch_->waitingCount()))
+    if (is_useless_ || !devices.suits(asked_.group, batch_->waitingCount()))
       return;
     if (!task_.robot)
     {
-      task_ = scheduler_.taskOf(asked_.group);
-      batch_->setDeviceRows(rowsForDevices(asked_, batch_->margins(), *task_.robot, task_.group));
+      DeviceTask task = scheduler_.taskOf(asked_.group);
+      auto rows = rowsForDevices(asked_, batch_->margins(), *task.robot, task.group);
+      is_useless_ = !rows->suitSomewhere();
+      batch_->setDeviceRows(std::move(rows));
+      task_ = std::move(task);
     }
-    if (devices.join(batch_, task_, asked_.group))
+    if (!is_useless_ && devices.join(batch_, task_, asked_.group))
       has_joined_ = true;
   }
 
@@ -85,6 +88,7 @@ class Scheduler::DeviceJoin
   const StateBatch& asked_;
   const std::shared_ptr<Batch> batch_;
   DeviceTask task_;
+  bool is_useless_ = false;  // devices can check few of the states, if any
   bool has_joined_ = false;
 };
 

@@ -213,7 +213,8 @@ class PosesOfParts : public PoseSource
   {
     begin_ = begin;
     states_.resize(count * robot_.variables().size());
-    parts_.copy({begin, count}, states_.data());
+    copyOnAllCores([this](const StateRange& states, double* to) { parts_.copy(states, to); }, {begin, count},
+                   robot_.variables().size(), states_.data());
     poses_.begin(begin, count);
   }
   void place(TexelBuffer& poses) override { poses_.place(poses); }
@@ -258,7 +259,8 @@ BodyPair GpuChecker::bodiesOf(std::uint32_t hit) const
 std::vector<std::size_t> GpuChecker::write(const StateRange& states, const std::uint32_t* verdicts,
                                            BatchResult& result) const
 {
-  const auto is_decided = [&](std::size_t i)
+  /// Returns whether the state is decided.
+  const auto write_verdict = [&](std::size_t i)
   {
     if (isHit(verdicts[i]))
     {
@@ -268,7 +270,7 @@ std::vector<std::size_t> GpuChecker::write(const StateRange& states, const std::
     }
     return isFree(verdicts[i]);
   };
-  std::vector<std::size_t> undecided = rowsWithout(states.count, is_decided);
+  std::vector<std::size_t> undecided = rowsWithout(states.count, write_verdict);
   for (std::size_t& row : undecided)
     row += states.begin;
   return undecided;

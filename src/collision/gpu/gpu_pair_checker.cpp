@@ -206,7 +206,7 @@ void GpuPairChecker::check(PoseSource& source, PartSource& parts, const Margins*
     }
     running = next;
   }
-  if (order_.endBatch(work_.states))
+  if (!provesFirst(work) && order_.endBatch(work_.states))
     writeQueries();
 }
 

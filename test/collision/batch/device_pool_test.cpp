@@ -37,6 +37,7 @@ class DevicePoolTest : public testing::Test
   {
     constexpr std::size_t kStates = 10'000;
     Batch batch(kStates, std::nullopt, 1);
+    batch.setDeviceRows(std::make_unique<const DeviceRows>(nullptr, kStates, 0, [](std::size_t) { return true; }));
     batch.join(0);
     const StateRange part = batch.takeForDevice(0, 4'000, 1.0);
     std::this_thread::sleep_for(latency);

@@ -97,6 +97,9 @@ class ScriptedDevice : public BatchDevice
     for (StateRange part = parts.take(size()); part.count != 0; part = parts.take(size()))
     {
       script_->next(script_->parts);
+      states_.resize(part.count);
+      parts.copy(part, states_.data());
+      first_ = part.begin;
       const std::size_t piece = part.count > 2 ? part.count / 2 : part.count;  // a part may be brought in pieces
       for (const StateRange& brought :
            {StateRange{part.begin, piece}, StateRange{part.begin + piece, part.count - piece}})
@@ -136,16 +139,16 @@ class ScriptedDevice : public BatchDevice
     if (std::find(script_->undecided.begin(), script_->undecided.end(), i) != script_->undecided.end())
       return open.push_back(i);
     const double margin = parts.margins() ? *parts.margins()->of(i) : 0.0;
-    double x;
-    parts.copy({i, 1}, 1, &x);
-    if (x * side_ < -margin)
+    if (states_[i - first_] * side_ < -margin)
       return;
     parts.result().valid[i] = 0;
     parts.result().colliding[i] = {1, body_};
   }
 
   std::shared_ptr<DeviceScript> script_;
-  double side_ = 0.0;  // 0: not prepared
+  std::vector<double> states_;  // of the part
+  std::size_t first_ = 0;       // of them
+  double side_ = 0.0;           // 0: not prepared
   std::int32_t body_ = 0;
 };
 

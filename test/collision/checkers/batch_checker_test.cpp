@@ -104,6 +104,27 @@ class BatchCheckerTest : public testing::Test
   std::vector<double> free_ = {0.0, -1.2};
 };
 
+/// The device then has no shapes at all, because no state within the limits reaches the object.
+TEST(BatchChecker, StatesOutsideTheLimitsCollideWithWhatNoStateWithinThemReaches)
+{
+  const auto robot = robotOf(R"(
+    <link name="rail"/>
+    <link name="cart"><collision><geometry><box size="0.1 0.1 0.1"/></geometry></collision></link>
+    <joint name="slide" type="prismatic"><parent link="rail"/><child link="cart"/><axis xyz="1 0 0"/>
+      <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>)");
+  PlanningScene scene(robot);
+  scene.objects = {{"far", Eigen::Isometry3d(Eigen::Translation3d(3.5, 0.0, 0.0)), {{Box{{0.5, 1, 1}}}}}};
+  BatchChecker checker(std::make_shared<const PlanningScene>(scene), with(Traversal::WorkQueue));
+  std::vector<double> states(1000, 0.5);
+  std::vector<std::uint8_t> expected(states.size(), 1);
+  for (std::size_t i = 0; i < states.size(); i += 3)
+  {
+    states[i] = 3.5;
+    expected[i] = 0;
+  }
+  EXPECT_EQ(checker.check(states.data(), states.size()).valid, expected);
+}
+
 TEST_F(BatchCheckerTest, NamesTheBodiesThatCollideAndTheRevision)
 {
   BatchChecker checker(scene_, with(Traversal::WorkQueue));

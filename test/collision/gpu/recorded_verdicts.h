@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include "collision/gpu/part_source.h"
@@ -20,6 +21,10 @@ class RecordedVerdicts : public PartSource
     const StateRange next{taken_, std::min(most, words.size() - taken_)};
     taken_ = next.end();
     return next;
+  }
+  void copy(const StateRange& /*states*/, double* /*to*/) override
+  {
+    throw std::logic_error("the source of the poses has the states");
   }
   void bring(const StateRange& states, const std::uint32_t* verdicts, const GpuWork& /*work*/) override
   {

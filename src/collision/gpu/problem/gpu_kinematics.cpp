@@ -5,7 +5,6 @@
 #include <cstring>
 #include <random>
 
-#include "base/parallel_for.h"
 #include "collision/gpu/problem/kinematics_shader.h"
 #include "gpu/staging_ring.h"
 #include "shader_constants.h"
@@ -17,7 +16,6 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::size_t kTestedStates = 64;
-constexpr std::size_t kRowsPerChunk = 16'384;  // copying these takes longer than starting a thread
 // The error of the double computation, relative to the distance from the origin (docs/error_bounds.md), with room.
 constexpr double kDoubleError = 1e-11;
 
@@ -143,20 +141,11 @@ void GpuKinematics::begin(std::size_t begin, std::size_t count)
     const std::size_t rows = std::min(most, count - first);
     upload.buffer().write(rows * row_bytes, first * row_bytes,
                           [&](void* to) {
-                            copyOnAllCores({begin + first, rows}, width, static_cast<double*>(to));
+                            copyOnAllCores(copy_, {begin + first, rows}, width, static_cast<double*>(to));
                           });
   }
   upload.bindTexture(UNIT_STATES);
   count_ = count;
-}
-
-void GpuKinematics::copyOnAllCores(const StateRange& states, std::size_t width, double* to) const
-{
-  parallelFor(
-      states.count, kRowsPerChunk,
-      [&](std::size_t from, std::size_t end) {
-        copy_({states.begin + from, end - from}, to + from * width);
-      });
 }
 
 void GpuKinematics::bind(TexelBuffer& poses, bool listed)

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <array>
-#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "collision/gpu/problem/copied_states.h"
 #include "collision/gpu/problem/pose_source.h"
 #include "collision/problem/collision_problem.h"
-#include "collision/problem/state_range.h"
 #include "gpu/program.h"
 #include "gpu_planning_scene/robot_model.h"
 
@@ -32,8 +31,7 @@ class GpuKinematics : public PoseSource
 
   /// Sets the states: row-major rows of the robot's variables, each in PlaceableStates.
   void setStates(const double* states);
-  /// The same for states that a function copies. It is called on several threads at once.
-  using CopyStates = std::function<void(const StateRange& states, double* to)>;
+  /// The same for states that a function copies.
   void setStates(CopyStates copy) { copy_ = std::move(copy); }
   void begin(std::size_t begin, std::size_t count) override;
   void place(TexelBuffer& poses) override;
@@ -42,7 +40,6 @@ class GpuKinematics : public PoseSource
   std::size_t boundVariables() const override { return robot_->variables().size(); }
 
  private:
-  void copyOnAllCores(const StateRange& states, std::size_t width, double* to) const;
   void bind(TexelBuffer& poses, bool listed);
 
   std::shared_ptr<const RobotModel> robot_;
