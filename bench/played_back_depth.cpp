@@ -124,6 +124,8 @@ struct Differences
   std::size_t invented = 0;      // voxels without points
   std::size_t seen_through = 0;  // voxels of the sheet, in so many images that they must be gone
   std::size_t left_behind = 0;   // of them
+  std::size_t sheet = 0;         // voxels of the sheet, in each period
+  std::size_t stayed = 0;        // of them, at the end of the period
   std::size_t touching = 0;      // states of the robot that touch the map
 
   std::size_t sum() const { return missing + invented + left_behind + touching; }
@@ -158,7 +160,7 @@ class Playback
     map_.add(image, {pose_, time, time, 0.0, range_, kPadding}, *scene_, state_.data());
     const std::vector<PlacedShape> cubes = map_.cubes(*scene_, state_.data());
     const double seconds = secondsSince(start);
-    compare(cubes);
+    compare(cubes, number);
     if (phase_ % 10 == 0 && touches(cubes))
       ++differences_.touching;
     return seconds;
@@ -260,7 +262,7 @@ class Playback
     return sheet_pixels >= kFilledShare * own_pixels && unmeasured <= kUnmeasuredShare * own_pixels;
   }
 
-  void compare(const std::vector<PlacedShape>& cubes)
+  void compare(const std::vector<PlacedShape>& cubes, int number)
   {
     std::set<Voxel> found;
     for (const PlacedShape& cube : cubes)
@@ -276,6 +278,12 @@ class Playback
       if (!hasNeighbour(found, voxel) && !isNearRobot(voxel))
         ++differences_.missing;
     differences_.compared += seen_.size();
+    if (phase_ == kPeriod - 1)
+      for (const auto& [voxel, sheet] : sheet_)
+      {
+        differences_.sheet += sheet.last_image > number - kPeriod ? 1 : 0;
+        differences_.stayed += sheet.last_image > number - kPeriod && found.count(voxel) != 0 ? 1 : 0;
+      }
   }
 
   bool collides(const std::vector<PlacedShape>& shapes) const
@@ -324,12 +332,15 @@ void run(const CommandLine& arguments)
     seconds.push_back(playback.play(i));
   const Differences& found = playback.differences();
   std::printf(
-      "| images | voxels at the end | measured voxels | of them missing | invented | voxels of the sheet, seen through "
-      "%d times | of them left | states that touch the map | ms of an image: median, largest |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n"
-      "| %d | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %.1f, %.1f |\n",
-      kViewsToClear, images, playback.voxels(), found.compared, found.missing, found.invented, found.seen_through,
-      found.left_behind, found.touching, 1e3 * benchmark::median(seconds), 1e3 * benchmark::percentile(seconds, 1.0));
+      "| images | voxels at the end | measured voxels | missing | invented | voxels of the sheet | of them seen "
+      "through "
+      "%d times | of these left | of all left at the end | states that touch the map | ms of an image: median, largest "
+      "|\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n"
+      "| %d | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %.1f, %.1f |\n",
+      kViewsToClear, images, playback.voxels(), found.compared, found.missing, found.invented, found.sheet,
+      found.seen_through, found.left_behind, found.stayed, found.touching, 1e3 * benchmark::median(seconds),
+      1e3 * benchmark::percentile(seconds, 1.0));
   if (found.sum() != 0)
     throw Error("the map is not as the images");
 }

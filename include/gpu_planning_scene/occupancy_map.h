@@ -75,11 +75,15 @@ struct OccupancyMapOptions
 /// outside the image.
 ///
 /// A measurement sees through a voxel if it has rays to the space behind the voxel, and no ray that ends at or before
-/// the voxel (see DepthView). Pixels that are not measured may be a body that the camera cannot measure: it does not
-/// see through a voxel if they are more than half of the pixels that had points in the voxel at its last hit. Each such
-/// measurement takes one hit of the voxel back. A voxel keeps three hits at most, and without hits it is removed. So it
-/// is removed after three such measurements at the latest. A voxel that no sensor sees stays, for example one that the
-/// robot hides. A measurement that comes up to two seconds late takes no hit back that was measured after it.
+/// the voxel (see DepthView). Each such measurement takes one hit of the voxel back. A voxel keeps three hits at most,
+/// and without hits it is removed. So it is removed after three such measurements at the latest. A voxel that no sensor
+/// sees stays, for example one that the robot hides. A measurement that comes up to two seconds late takes no hit back
+/// that was measured after it.
+///
+/// A ray that is not measured may have met a body that the camera cannot measure. So the measurement does not see
+/// through a voxel near such a ray. There is one exception, because real images have many such rays: a body that took
+/// 30 % of the voxel's pixels, for a sensor at the same place, cannot hide in 15 % of them. It does not count for a
+/// voxel in which a smaller body was measured three times.
 ///
 /// The robot, its attached objects, and objects that the caller names are left out by their exact geometry: see
 /// SensorView::padding and cubes(). Voxels that were occupied before the robot came near them stay.
