@@ -27,7 +27,7 @@ void FclChecker::setScene(std::shared_ptr<const PlanningScene> /*scene*/)
 
 BatchResult FclChecker::checkBatch(const StateBatch& batch)
 {
-  const auto& [states, count, group, around, owner, go_on] = batch;
+  const auto& [states, count, group, around, go_on] = batch;
   if (group != group_)
     throw std::logic_error("an FclChecker of group " + group_ + " got a request for group " + group);
   std::optional<Margins> margins;

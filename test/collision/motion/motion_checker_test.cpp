@@ -267,7 +267,7 @@ class ChanceChecker : public StateChecker
   void setScene(std::shared_ptr<const PlanningScene> /*scene*/) override {}
   BatchResult checkBatch(const StateBatch& batch) override
   {
-    const auto& [states, count, group, around, owner, go_on] = batch;
+    const auto& [states, count, group, around, go_on] = batch;
     const std::size_t width = robot_->variables().size();
     const std::size_t joints = robot_->joints().size();
     BatchResult result;
