@@ -16,7 +16,7 @@ namespace gpu_planning_scene::core
 namespace
 {
 constexpr std::chrono::seconds kFindAction{1};  // for the connection to an action server
-constexpr int kContactPeriods = 4;  // of ~watch/rate: the longest time without a contact
+constexpr int kContactPeriods = 4;              // of ~watch/rate: the longest time without a contact
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 bool isFault(const WatchState& state)

@@ -133,7 +133,7 @@ TEST(BatchRrtConnect, KeepsTheTreesBalancedWhenOneOfThemIsInAPocket)
                                   {-0.5, -0.6, -0.4, -0.08},
                                   {-0.5, 0.08, -0.4, 0.6}};
   std::array<std::size_t, 3> vertices{};  // by the tag: 1 for the start tree, 2 for the goal tree
-  for (int run = 0; run < 40; ++run)  // the ratio of a few runs varies a lot
+  for (int run = 0; run < 40; ++run)      // the ratio of a few runs varies a lot
   {
     Planning planning(room, {-1.0, 0.3}, {{1.0, 0.3}});
     planning.planner->setRange(0.05);
