@@ -324,7 +324,7 @@ class Playback
 
 void run(const CommandLine& arguments)
 {
-  const auto images = static_cast<int>(arguments.count("--images", 3 * kPeriod, 1, 1000000));
+  const auto images = static_cast<int>(arguments.count("--images", std::size_t{3} * kPeriod, 1, 1000000));
   Playback playback(readRecording(arguments), arguments.number("--range", 4.0, 0.1, 100.0),
                     arguments.number("--resolution", 0.05, 0.001, 1.0));
   std::vector<double> seconds;

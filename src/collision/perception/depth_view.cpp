@@ -147,7 +147,7 @@ bool DepthView::seesBehind(const VoxelInView& voxel, double most_unmeasured) con
   int level = 0;
   while ((std::max(columns.last - columns.first, rows.last - rows.first) >> level) >= kMaxReads)
     ++level;
-  bool has_ray = false;
+  bool has_ray = false;  // in a square that overlaps the rectangle
   for (int y = rows.first >> level; y <= rows.last >> level; ++y)
     for (int x = columns.first >> level; x <= columns.last >> level; ++x)
     {
