@@ -43,7 +43,7 @@ class BatchParts : public testing::Test
   static std::shared_ptr<Batch> batchOf(std::size_t count, const std::vector<std::size_t>& only_cores = {},
                                         std::size_t cores = 2)
   {
-    const auto batch = std::make_shared<Batch>(count, std::nullopt, cores);
+    auto batch = std::make_shared<Batch>(count, std::nullopt, cores);
     static const std::vector<double> states = []
     {
       std::vector<double> numbered(kMostStates);
