@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -30,10 +29,6 @@ constexpr int kSheetFrames = 20;     // of a period in which a sheet hides a par
 constexpr float kSheetDepth = 0.9F;  // metres
 constexpr double kPadding = 0.03;    // metres
 constexpr int kViewsToClear = 3;
-// The sheet fills a voxel if it takes this share of the voxel's pixels. The map then allows less than a third of it to
-// be unmeasured. Both bounds are stricter than those of the map.
-constexpr double kFilledShare = 0.5;
-constexpr double kUnmeasuredShare = 0.1;
 
 using Voxel = std::array<long, 3>;
 
@@ -112,9 +107,7 @@ bool hasNeighbour(const std::set<Voxel>& voxels, const Voxel& voxel)
 struct SheetVoxel
 {
   int last_image = -1;
-  int pixels = std::numeric_limits<int>::max();  // of the sheet, in the last image with it
-  int fewest_pixels = pixels;                    // in an image before
-  int views_behind = 0;                          // images since then that saw through the voxel
+  int views_behind = 0;  // images since then that saw through the voxel
 };
 
 struct Differences
@@ -153,7 +146,7 @@ class Playback
                                 static_cast<int>(pan * (recording_.camera.height - kHeight)));
     addRobotAndSheet(image, number);
     for (auto& [voxel, sheet] : sheet_)
-      if (sheet.last_image != number && isSeenThrough(image, voxel, std::min(sheet.pixels, sheet.fewest_pixels)))
+      if (sheet.last_image != number && isSeenThrough(image, voxel))
         differences_.seen_through += ++sheet.views_behind == kViewsToClear ? 1 : 0;
     const auto start = std::chrono::steady_clock::now();
     const double time = number / 15.0;  // 15 images a second
@@ -213,7 +206,7 @@ class Playback
           continue;
         const Voxel voxel = voxelOf(pose_ * pointOf(image, x, y));
         if (is_sheet)
-          addSheetPixel(voxel, number);
+          sheet_[voxel] = {number, 0};
         else
           measured_.insert(voxel);
         if (isInImage(image.camera, pose_.inverse() * centreOf(voxel)))
@@ -221,17 +214,8 @@ class Playback
       }
   }
 
-  void addSheetPixel(const Voxel& voxel, int number)
-  {
-    SheetVoxel& sheet = sheet_[voxel];
-    if (sheet.last_image != number)
-      sheet = {number, 0, std::min(sheet.fewest_pixels, sheet.pixels), 0};
-    ++sheet.pixels;
-  }
-
-  /// Whether all measured pixels around the voxel end behind it, and few enough are not measured after a sheet that
-  /// took at least so many pixels of the voxel in each image.
-  bool isSeenThrough(const DepthImage& image, const Voxel& voxel, int sheet_pixels) const
+  /// Whether all pixels around the voxel are measured, well behind it.
+  bool isSeenThrough(const DepthImage& image, const Voxel& voxel) const
   {
     Eigen::AlignedBox2d pixels;
     double behind = 0.0;
@@ -242,24 +226,18 @@ class Playback
           pose_.inverse() * (centreOf(voxel) + resolution_ * (offset - Eigen::Vector3d::Constant(0.5)));
       pixels.extend(Eigen::Vector2d(image.camera.cx + image.camera.fx * point.x() / point.z(),
                                     image.camera.cy + image.camera.fy * point.y() / point.z()));
-      behind = std::max(behind, point.z());
+      behind = std::max(behind, point.z() + 0.5 * resolution_);
     }
     const Eigen::Array2d margin = 2.0 + 0.2 * pixels.sizes().array();  // the map looks at a box around the voxel
     const Eigen::Vector2i least = (pixels.min().array() - margin).floor().cast<int>();
     const Eigen::Vector2i most = (pixels.max().array() + margin).ceil().cast<int>();
     if (least.minCoeff() < 0 || most.x() >= kWidth || most.y() >= kHeight)
       return false;
-    int unmeasured = 0;
     for (int y = least.y(); y <= most.y(); ++y)
       for (int x = least.x(); x <= most.x(); ++x)
-      {
-        const float depth = image.depths[image.camera.pixel(x, y)];
-        if (static_cast<double>(depth) <= behind)
+        if (!(static_cast<double>(image.depths[image.camera.pixel(x, y)]) > behind))
           return false;
-        unmeasured += std::isnan(depth) ? 1 : 0;
-      }
-    const double own_pixels = pixels.sizes().prod();
-    return sheet_pixels >= kFilledShare * own_pixels && unmeasured <= kUnmeasuredShare * own_pixels;
+    return true;
   }
 
   void compare(const std::vector<PlacedShape>& cubes, int number)

@@ -81,9 +81,7 @@ struct OccupancyMapOptions
 /// that was measured after it.
 ///
 /// A ray that is not measured may have met a body that the camera cannot measure. So the measurement does not see
-/// through a voxel near such a ray. There is one exception, because real images have many such rays: a body that took
-/// 30 % of the voxel's pixels, for a sensor at the same place, cannot hide in 15 % of them. It does not count for a
-/// voxel in which a smaller body was measured three times.
+/// through a voxel near such a ray.
 ///
 /// The robot, its attached objects, and objects that the caller names are left out by their exact geometry: see
 /// SensorView::padding and cubes(). Voxels that were occupied before the robot came near them stay.

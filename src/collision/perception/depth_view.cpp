@@ -15,12 +15,29 @@ std::size_t pixelOf(int x, int y, int width)
 {
   return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
 }
+
+struct PixelInterval
+{
+  double first;
+  double last;
+};
+
+/// The pixels in which the interval [centre - extent, centre + extent] at the depths [near, far] may appear, and one
+/// more on each side. They may be outside the image.
+PixelInterval intervalOf(double centre, double extent, double near, double far, double focal_length,
+                         double principal_point)
+{
+  const double low = centre - extent;
+  const double high = centre + extent;
+  return {std::floor(principal_point + focal_length * std::min(low / near, low / far)) - 1.0,
+          std::ceil(principal_point + focal_length * std::max(high / near, high / far)) + 1.0};
+}
+
 }  // namespace
 
 DepthView::DepthView(const PinholeCamera& camera, std::vector<float> depths, bool has_gaps)
   : camera_(camera), has_gaps_(has_gaps)
 {
-  countUnmeasured(depths);
   levels_.push_back({camera.width, camera.height, std::move(depths)});
   while (levels_.back().width > 1 || levels_.back().height > 1)
   {
@@ -39,39 +56,6 @@ DepthView::DepthView(const PinholeCamera& camera, std::vector<float> depths, boo
   }
 }
 
-/// Replaces NaN by infinity.
-void DepthView::countUnmeasured(std::vector<float>& depths)
-{
-  if (std::none_of(depths.begin(), depths.end(), [](float depth) { return std::isnan(depth); }))
-    return;
-  const int width = camera_.width + 1;
-  unmeasured_.assign(static_cast<std::size_t>(width) * (static_cast<std::size_t>(camera_.height) + 1), 0);
-  for (int y = 0; y < camera_.height; ++y)
-  {
-    std::uint32_t of_row = 0;
-    for (int x = 0; x < camera_.width; ++x)
-    {
-      float& depth = depths[camera_.pixel(x, y)];
-      if (std::isnan(depth))
-      {
-        ++of_row;
-        depth = std::numeric_limits<float>::infinity();
-      }
-      unmeasured_[pixelOf(x + 1, y + 1, width)] = unmeasured_[pixelOf(x + 1, y, width)] + of_row;
-    }
-  }
-}
-
-std::uint32_t DepthView::unmeasuredIn(const PixelRectangle& pixels) const
-{
-  if (unmeasured_.empty())
-    return 0;
-  const auto before = [&](int x, int y) { return unmeasured_[pixelOf(x, y, camera_.width + 1)]; };
-  const auto& [columns, rows] = pixels;
-  return before(columns.last + 1, rows.last + 1) - before(columns.first, rows.last + 1) -
-         before(columns.last + 1, rows.first) + before(columns.first, rows.first);
-}
-
 bool DepthView::shows(const Eigen::Vector3d& point) const
 {
   const double u = camera_.cx + camera_.fx * point.x() / point.z();
@@ -81,69 +65,36 @@ bool DepthView::shows(const Eigen::Vector3d& point) const
 
 bool DepthView::showsAll(const VoxelInView& voxel) const
 {
-  if (!isInFront(voxel))
+  const auto& [centre, extent, inner_radius] = voxel;
+  const double near = centre.z() - extent.z();
+  const double far = centre.z() + extent.z();
+  if (near <= 0.0)
     return false;
-  const auto& [columns, rows] = intervalsNear(voxel);
+  const PixelInterval columns = intervalOf(centre.x(), extent.x(), near, far, camera_.fx, camera_.cx);
+  const PixelInterval rows = intervalOf(centre.y(), extent.y(), near, far, camera_.fy, camera_.cy);
   return columns.first >= 0.0 && columns.last <= camera_.width - 1.0 && rows.first >= 0.0 &&
          rows.last <= camera_.height - 1.0;
 }
 
-bool DepthView::isInFront(const VoxelInView& voxel)
+DepthView::PixelRange DepthView::within(double first, double last, int size)
 {
-  return voxel.centre.z() > voxel.extent.z();
+  const double border = size - 1;
+  return {static_cast<int>(std::clamp(first, 0.0, border)), static_cast<int>(std::clamp(last, 0.0, border))};
 }
 
-/// Where the voxel's box appears in the image plane, in pixels.
-DepthView::PixelIntervals DepthView::intervalsOf(const VoxelInView& voxel) const
+bool DepthView::seesBehind(const VoxelInView& voxel) const
 {
-  const double near = voxel.centre.z() - voxel.extent.z();
-  const double far = voxel.centre.z() + voxel.extent.z();
-  const auto interval_of = [&](double centre, double extent, double focal_length, double principal_point)
-  {
-    const double low = centre - extent;
-    const double high = centre + extent;
-    return PixelInterval{principal_point + focal_length * std::min(low / near, low / far),
-                         principal_point + focal_length * std::max(high / near, high / far)};
-  };
-  return {interval_of(voxel.centre.x(), voxel.extent.x(), camera_.fx, camera_.cx),
-          interval_of(voxel.centre.y(), voxel.extent.y(), camera_.fy, camera_.cy)};
-}
-
-/// The pixels of intervalsOf(), and one more on each side. They may be outside the image.
-DepthView::PixelIntervals DepthView::intervalsNear(const VoxelInView& voxel) const
-{
-  const auto near = [](const PixelInterval& interval) {
-    return PixelInterval{std::floor(interval.first) - 1.0, std::ceil(interval.last) + 1.0};
-  };
-  const auto& [columns, rows] = intervalsOf(voxel);
-  return {near(columns), near(rows)};
-}
-
-/// The part of it that is in the image.
-DepthView::PixelRectangle DepthView::rectangleNear(const VoxelInView& voxel) const
-{
-  const auto within = [](const PixelInterval& interval, int size)
-  {
-    const double border = size - 1;
-    return PixelRange{static_cast<int>(std::clamp(interval.first, 0.0, border)),
-                      static_cast<int>(std::clamp(interval.last, 0.0, border))};
-  };
-  const auto& [columns, rows] = intervalsNear(voxel);
-  return {within(columns, camera_.width), within(rows, camera_.height)};
-}
-
-double DepthView::pixelsOf(const VoxelInView& voxel) const
-{
-  const auto& [columns, rows] = intervalsOf(voxel);
-  return (columns.last - columns.first) * (rows.last - rows.first);
-}
-
-bool DepthView::seesBehind(const VoxelInView& voxel, double most_unmeasured) const
-{
-  if (!isInFront(voxel) || !shows(voxel.centre))
+  const auto& [centre, extent, inner_radius] = voxel;
+  const double near = centre.z() - extent.z();
+  const double far = centre.z() + extent.z();
+  if (near <= 0.0 || !shows(centre))
     return false;
-  const PixelRectangle pixels = rectangleNear(voxel);
-  const auto& [columns, rows] = pixels;
+  const PixelInterval u = intervalOf(centre.x(), extent.x(), near, far, camera_.fx, camera_.cx);
+  const PixelInterval v = intervalOf(centre.y(), extent.y(), near, far, camera_.fy, camera_.cy);
+  const PixelRange columns = within(u.first, u.last, camera_.width);
+  const PixelRange rows = within(v.first, v.last, camera_.height);
+  // A depth is less exact than a direction, so rays must end behind the ball around the voxel.
+  const double behind = centre.z() + std::sqrt(3.0) * inner_radius;
   int level = 0;
   while ((std::max(columns.last - columns.first, rows.last - rows.first) >> level) >= kMaxReads)
     ++level;
@@ -151,12 +102,11 @@ bool DepthView::seesBehind(const VoxelInView& voxel, double most_unmeasured) con
   for (int y = rows.first >> level; y <= rows.last >> level; ++y)
     for (int x = columns.first >> level; x <= columns.last >> level; ++x)
     {
-      if (!endBehind({level, x, y}, pixels, voxel.centre.z() + voxel.extent.z()))
+      if (!endBehind({level, x, y}, columns, rows, behind))
         return false;
       has_ray = has_ray || std::isfinite(smallestOf({level, x, y}));
     }
-  return has_ray && unmeasuredIn(pixels) <= most_unmeasured &&
-         (!has_gaps_ || passesThrough(voxel.centre, voxel.inner_radius));
+  return has_ray && (!has_gaps_ || passesThrough(centre, inner_radius));
 }
 
 float DepthView::smallestOf(const Square& square) const
@@ -167,7 +117,7 @@ float DepthView::smallestOf(const Square& square) const
 
 /// Whether all pixels of the square that are in the rectangle are deeper than `far`. Looks at smaller squares only
 /// where a pixel of the square is nearer: it may be outside the rectangle.
-bool DepthView::endBehind(const Square& square, const PixelRectangle& pixels, double far) const
+bool DepthView::endBehind(const Square& square, const PixelRange& columns, const PixelRange& rows, double far) const
 {
   if (static_cast<double>(smallestOf(square)) > far)
     return true;
@@ -177,11 +127,11 @@ bool DepthView::endBehind(const Square& square, const PixelRectangle& pixels, do
   const auto part_of = [level](int half, const PixelRange& range) {
     return PixelRange{std::max(half, range.first >> level), std::min(half + 1, range.last >> level)};
   };
-  const PixelRange x = part_of(2 * square.x, pixels.columns);
-  const PixelRange y = part_of(2 * square.y, pixels.rows);
+  const PixelRange x = part_of(2 * square.x, columns);
+  const PixelRange y = part_of(2 * square.y, rows);
   for (int row = y.first; row <= y.last; ++row)
     for (int column = x.first; column <= x.last; ++column)
-      if (!endBehind({level, column, row}, pixels, far))
+      if (!endBehind({level, column, row}, columns, rows, far))
         return false;
   return true;
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -23,9 +22,9 @@ struct VoxelInView
 class DepthView
 {
  public:
-  /// `depths`: metres along the optical axis, row by row. NaN: the ray may have met a body that the camera cannot
-  /// measure. Infinity: there is no ray in this pixel. 0: the ray ends before all bodies. `has_gaps`: pixels without a
-  /// ray are places that the sensor did not look at, as between the rows of a laser scanner.
+  /// `depths`: metres along the optical axis, row by row. Infinity: there is no ray in this pixel. 0: the ray ends
+  /// before all bodies. `has_gaps`: pixels without a ray are places that the sensor did not look at, as between the
+  /// rows of a laser scanner.
   DepthView(const PinholeCamera& camera, std::vector<float> depths, bool has_gaps = false);
 
   /// Whether a point is in front of the camera and in its image.
@@ -34,15 +33,12 @@ class DepthView
   /// Whether a voxel, with a pixel around it, is in front of the camera and in its image. See seesBehind().
   bool showsAll(const VoxelInView& voxel) const;
 
-  /// The size of the bounding rectangle of a voxel's box in the image, in pixels. The voxel must be shown: showsAll().
-  double pixelsOf(const VoxelInView& voxel) const;
-
-  /// Whether the camera sees what is behind a voxel. True if the image shows its centre, a ray near the voxel is
-  /// measured, all measured rays near it end behind it, and at most `most_unmeasured` pixels near it are not measured.
-  /// "Near" is the bounding rectangle of the voxel's box in the image, enlarged by a pixel. So the camera does not see
-  /// behind a voxel at the edge of a nearer surface, nor through a surface at a grazing angle. If the rays have gaps,
-  /// at least one ray must also pass through the voxel.
-  bool seesBehind(const VoxelInView& voxel, double most_unmeasured = 0.0) const;
+  /// Whether the camera sees what is behind a voxel. True if the image shows its centre, at least one ray is measured
+  /// near the voxel, and every measured ray near it ends behind the ball around it. "Near" is the bounding rectangle of
+  /// the voxel's box in the image, enlarged by a pixel. So the camera does not see behind a voxel at the edge of a
+  /// nearer surface, nor through a surface at a grazing angle. If the rays have gaps, at least one ray must also pass
+  /// through the voxel.
+  bool seesBehind(const VoxelInView& voxel) const;
 
  private:
   struct Level
@@ -66,38 +62,14 @@ class DepthView
     int y;
   };
 
-  struct PixelRectangle
-  {
-    PixelRange columns;
-    PixelRange rows;
-  };
-
-  struct PixelInterval
-  {
-    double first;
-    double last;
-  };
-  struct PixelIntervals
-  {
-    PixelInterval columns;
-    PixelInterval rows;
-  };
-
-  static bool isInFront(const VoxelInView& voxel);
-  PixelIntervals intervalsOf(const VoxelInView& voxel) const;
-  PixelIntervals intervalsNear(const VoxelInView& voxel) const;
-  PixelRectangle rectangleNear(const VoxelInView& voxel) const;
-  void countUnmeasured(std::vector<float>& depths);
-  std::uint32_t unmeasuredIn(const PixelRectangle& pixels) const;
+  /// The part of an interval that is in the image.
+  static PixelRange within(double first, double last, int size);
   float smallestOf(const Square& square) const;
-  bool endBehind(const Square& square, const PixelRectangle& pixels, double far) const;
+  bool endBehind(const Square& square, const PixelRange& columns, const PixelRange& rows, double far) const;
   bool passesThrough(const Eigen::Vector3d& centre, double radius) const;
 
   PinholeCamera camera_;
   bool has_gaps_;
   std::vector<Level> levels_;
-  /// For each corner of pixels: how many pixels to the left of it and above it are not measured. The sum over a
-  /// rectangle takes four reads: F. Crow, Summed-area tables for texture mapping. SIGGRAPH 1984. Empty: none.
-  std::vector<std::uint32_t> unmeasured_;
 };
 }  // namespace gpu_planning_scene::core

@@ -19,7 +19,6 @@ using Eigen::Vector3f;
 
 constexpr float kNoRay = std::numeric_limits<float>::infinity();
 constexpr float kBlocked = 0.0F;
-constexpr float kUnmeasured = std::numeric_limits<float>::quiet_NaN();
 
 // Pixels along an edge of a face of the cube around a scanner: 0.18 degrees in the middle of a face.
 constexpr int kFacePixels = 512;
@@ -63,7 +62,7 @@ float unmeasuredRay(const DepthImage& image, int x, int y)
       ++neighbours;
       measured += depth > 0.0F ? 1 : 0;
     }
-  return neighbours - measured <= 1 ? kNoRay : kUnmeasured;
+  return neighbours - measured <= 1 ? kNoRay : kBlocked;
 }
 
 /// The face of a cube around the sensor that a ray leaves through: 2 axis + (1 if the coordinate is negative).

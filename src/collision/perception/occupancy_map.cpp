@@ -29,13 +29,6 @@ constexpr std::uint8_t kMaxEvidence = 3;
 // set back.
 constexpr double kMaxDelay = 2.0;
 
-// A body fills a voxel if its points take this share of the pixels of the voxel's box. It is then too large to hide in
-// half as many pixels.
-constexpr double kFilledShare = 0.3;
-constexpr double kHiddenShare = 0.5 * kFilledShare;
-constexpr std::uint8_t kMostThinHits = 2;  // of a body that enters a voxel and leaves it; more are of a thin body
-constexpr float kSameView = 0.1F;          // difference of two places of a sensor, as a share of its distance
-
 bool isBefore(double time, double other)
 {
   return time < other && other - time <= kMaxDelay;
@@ -44,20 +37,17 @@ bool isBefore(double time, double other)
 struct Voxel
 {
   std::uint64_t key;
-  double seen;             // seconds: SensorView::time of the last hit
-  double received;         // seconds: SensorView::received of the last hit
-  std::uint8_t evidence;   // 1 to kMaxEvidence
-  bool is_whole;           // a sensor that hit it saw the whole voxel
-  Vector3f filled_from;    // from its centre to the sensor that last saw a body fill it; 0: none did
-  std::uint8_t thin_hits;  // hits by bodies that did not fill it, at most kMostThinHits + 1
+  double seen;            // seconds: SensorView::time of the last hit
+  double received;        // seconds: SensorView::received of the last hit
+  std::uint8_t evidence;  // 1 to kMaxEvidence
+  bool is_whole;          // a sensor that hit it saw the whole voxel
 };
 
 struct Hit
 {
   std::uint64_t key;
   bool is_whole;
-  bool fills;                 // a body fills the voxel, and the image shows all of it
-  bool may_be_robot = false;  // within the padding of the robot
+  bool may_be_robot;  // within the padding of the robot
 };
 
 /// Places voxels in the frame of a camera.
@@ -70,23 +60,6 @@ struct VoxelProjection
 
   VoxelInView view(const Vector3d& centre) const { return {to_camera * centre, extent, inner_radius}; }
 };
-
-/// `to_sensor`: metres, from the voxel's centre.
-void noteSize(bool fills, const Vector3d& to_sensor, Voxel& voxel)
-{
-  if (fills)
-    voxel.filled_from = to_sensor.cast<float>();
-  else
-    voxel.thin_hits = std::min<std::uint8_t>(voxel.thin_hits + 1, kMostThinHits + 1);
-}
-
-/// Whether the body in a voxel is known to be large for a sensor at this place. Another sensor may see it from the
-/// side.
-bool cannotHide(const Voxel& voxel, const Vector3d& to_sensor)
-{
-  return voxel.thin_hits <= kMostThinHits && voxel.filled_from != Vector3f::Zero() &&
-         (to_sensor.cast<float>() - voxel.filled_from).norm() <= kSameView * voxel.filled_from.norm();
-}
 
 bool hasSmallerKey(const Voxel& a, const Voxel& b)
 {
@@ -142,28 +115,24 @@ std::vector<VoxelProjection> OccupancyMap::Impl::projectionsOf(const Measurement
 /// border.
 std::vector<Hit> OccupancyMap::Impl::hitVoxels(const Measurement& measurement, const Isometry3d& sensor) const
 {
-  VoxelCounts filled;
+  VoxelKeys keys;
   for (const Vector3d& point : measurement.points)
   {
     const Vector3d placed = sensor * point;
     if (options.region.contains(placed))
-      filled.add(grid.keyOf(placed));
+      keys.add(grid.keyOf(placed));
   }
   std::vector<Hit> hits;
   const std::vector<VoxelProjection> projections = projectionsOf(measurement, sensor);
-  for (const auto& [key, points] : filled.take())
+  for (const std::uint64_t key : keys.take())
   {
+    const Vector3d centre = grid.centreOf(key);
+    const auto is_shown = [&](const VoxelProjection& to) { return to.depths.shows(to.view(centre).centre); };
+    const auto is_whole = [&](const VoxelProjection& to) { return to.depths.showsAll(to.view(centre)); };
     if (measurement.looks_everywhere)
-    {
       hits.push_back({key, true, false});
-      continue;
-    }
-    const VoxelProjection& to = projections.front();
-    const VoxelInView voxel = to.view(grid.centreOf(key));
-    if (!to.depths.shows(voxel.centre))
-      continue;
-    const bool is_whole = to.depths.showsAll(voxel);
-    hits.push_back({key, is_whole, is_whole && points >= kFilledShare * to.depths.pixelsOf(voxel)});
+    else if (std::any_of(projections.begin(), projections.end(), is_shown))
+      hits.push_back({key, std::any_of(projections.begin(), projections.end(), is_whole), false});
   }
   return hits;
 }
@@ -182,12 +151,8 @@ std::vector<Voxel> OccupancyMap::Impl::takeKnown(std::vector<Hit>& hits, const M
                        [&](const VoxelProjection& to)
                        {
                          const VoxelInView seen = to.view(centre);
-                         const bool is_shown = to.depths.showsAll(seen);
-                         const double hidden = is_shown && cannotHide(voxel, sensor.translation() - centre)
-                                                   ? kHiddenShare * to.depths.pixelsOf(seen)
-                                                   : 0.0;
-                         return to.depths.seesBehind(seen, hidden) &&
-                                (!voxel.is_whole || measurement.looks_everywhere || is_shown);
+                         return to.depths.seesBehind(seen) &&
+                                (!voxel.is_whole || measurement.looks_everywhere || to.depths.showsAll(seen));
                        });
   };
   std::vector<Voxel> known;
@@ -200,8 +165,6 @@ std::vector<Voxel> OccupancyMap::Impl::takeKnown(std::vector<Hit>& hits, const M
       others.push_back(*hit);
     if (hit != hits.end() && hit->key == voxel.key)
     {
-      if (!hit->may_be_robot && !isBefore(view.time, voxel.seen))
-        noteSize(hit->fills, sensor.translation() - grid.centreOf(voxel.key), voxel);
       voxel.seen = isBefore(view.time, voxel.seen) ? voxel.seen : view.time;
       voxel.received = view.received;
       voxel.evidence = std::min<std::uint8_t>(voxel.evidence + 1, kMaxEvidence);
@@ -243,10 +206,7 @@ std::size_t OccupancyMap::Impl::add(const Measurement& measurement, const Sensor
 
   const auto middle = static_cast<std::ptrdiff_t>(known.size());
   for (const Hit& hit : hits)
-  {
-    known.push_back({hit.key, view.time, view.received, 1, hit.is_whole, Vector3f::Zero(), 0});
-    noteSize(hit.fills, sensor.translation() - grid.centreOf(hit.key), known.back());
-  }
+    known.push_back({hit.key, view.time, view.received, 1, hit.is_whole});
   std::inplace_merge(known.begin(), known.begin() + middle, known.end(), hasSmallerKey);
   const std::size_t without_room = known.size() - std::min(known.size(), options.max_voxels);
   if (without_room > 0)

@@ -28,28 +28,25 @@ struct PointCloudFilter::Impl
 {
   explicit Impl(const PointCloudOptions& given) : options(given), grid(given.voxel) {}
 
-  std::vector<Vector3d> centresOf(const std::vector<Eigen::Vector3f>& points, const Isometry3d& sensor) const;
+  std::vector<std::uint64_t> voxelsOf(const std::vector<Eigen::Vector3f>& points, const Isometry3d& sensor) const;
 
   const PointCloudOptions options;
   const VoxelGrid grid;
   BodyFilter bodies;
 };
 
-/// The centres of the occupied voxels, in ascending order of their keys, each once.
-std::vector<Vector3d> PointCloudFilter::Impl::centresOf(const std::vector<Eigen::Vector3f>& points,
-                                                        const Isometry3d& sensor) const
+/// The keys of the occupied voxels, in ascending order, each once.
+std::vector<std::uint64_t> PointCloudFilter::Impl::voxelsOf(const std::vector<Eigen::Vector3f>& points,
+                                                            const Isometry3d& sensor) const
 {
-  VoxelCounts filled;
+  VoxelKeys keys;
   for (const Eigen::Vector3f& point : points)
   {
     const Vector3d local = point.cast<double>();
     if (local.allFinite() && local.norm() <= options.max_distance)
-      filled.add(grid.keyOf(sensor * local));
+      keys.add(grid.keyOf(sensor * local));
   }
-  std::vector<Vector3d> centres;
-  for (const FilledVoxel& voxel : filled.take())
-    centres.push_back(grid.centreOf(voxel.key));
-  return centres;
+  return keys.take();
 }
 
 PointCloudFilter::PointCloudFilter(const PointCloudOptions& options)
@@ -66,10 +63,14 @@ WorldObject PointCloudFilter::objectOf(const std::string& id, const std::vector<
                                        const Isometry3d& sensor, const PlanningScene& scene, const double* state)
 {
   validateStates(*scene.robot, state, 1);
-  std::vector<Vector3d> centres = impl_->centresOf(points, nearestRigid(sensor, "the sensor's pose"));
-  if (centres.size() > impl_->options.max_voxels)
-    throw Error("the cloud fills " + std::to_string(centres.size()) + " voxels, but at most " +
+  const std::vector<std::uint64_t> voxels = impl_->voxelsOf(points, nearestRigid(sensor, "the sensor's pose"));
+  if (voxels.size() > impl_->options.max_voxels)
+    throw Error("the cloud fills " + std::to_string(voxels.size()) + " voxels, but at most " +
                 std::to_string(impl_->options.max_voxels) + " are allowed; use larger voxels or a shorter range");
+  std::vector<Vector3d> centres;
+  centres.reserve(voxels.size());
+  for (const std::uint64_t voxel : voxels)
+    centres.push_back(impl_->grid.centreOf(voxel));
   removeFlagged(centres, impl_->bodies.near(impl_->grid, centres, scene, state, impl_->options.robot_padding, {}));
   WorldObject object;
   object.id = id;

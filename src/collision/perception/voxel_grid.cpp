@@ -1,7 +1,6 @@
 #include "collision/perception/voxel_grid.h"
 
 #include <algorithm>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -51,18 +50,10 @@ std::vector<PlacedShape> VoxelGrid::cubesAt(const std::vector<Vector3d>& centres
   return cubes;
 }
 
-std::vector<FilledVoxel> VoxelCounts::take()
+std::vector<std::uint64_t> VoxelKeys::take()
 {
-  std::copy_if(
-      lately_.begin(), lately_.end(), std::back_inserter(voxels_),
-      [](const FilledVoxel& voxel) { return voxel.points != 0; });
-  std::sort(voxels_.begin(), voxels_.end(), [](const FilledVoxel& a, const FilledVoxel& b) { return a.key < b.key; });
-  std::vector<FilledVoxel> once;
-  for (const FilledVoxel& voxel : voxels_)
-    if (!once.empty() && once.back().key == voxel.key)
-      once.back().points += voxel.points;
-    else
-      once.push_back(voxel);
-  return once;
+  std::sort(keys_.begin(), keys_.end());
+  keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
+  return std::move(keys_);
 }
 }  // namespace gpu_planning_scene::core

@@ -30,37 +30,26 @@ class VoxelGrid
   double per_metre_;
 };
 
-/// A voxel and the number of points in it.
-struct FilledVoxel
-{
-  std::uint64_t key;
-  std::uint32_t points;
-};
-
-/// Counts the points of each voxel.
-class VoxelCounts
+/// Collects keys, each once.
+class VoxelKeys
 {
  public:
   void add(std::uint64_t key)
   {
-    FilledVoxel& last = lately_[(key * kHashFactor) >> (64 - kHashBits)];
-    if (last.key != key)
-    {
-      if (last.points != 0)
-        voxels_.push_back(last);
-      last = {key, 0};
-    }
-    ++last.points;
+    std::uint64_t& last = lately_[(key * kHashFactor) >> (64 - kHashBits)];
+    if (last != key)
+      keys_.push_back(last = key);
   }
-  /// The voxels in ascending order of their keys, each once.
-  std::vector<FilledVoxel> take();
+  /// The keys in ascending order.
+  std::vector<std::uint64_t> take();
 
  private:
   static constexpr int kHashBits = 14;
   static constexpr std::uint64_t kHashFactor = 0x9E3779B97F4A7C15;  // 2^64 divided by the golden ratio (Knuth)
+  static constexpr std::uint64_t kNoKey = ~std::uint64_t{0};
 
-  // Many points are in the same voxels. Most of these are counted here, before the voxels are sorted.
-  std::vector<FilledVoxel> lately_ = std::vector<FilledVoxel>(std::size_t{1} << kHashBits, FilledVoxel{0, 0});
-  std::vector<FilledVoxel> voxels_;
+  // Many points are in the same voxels. Most of these are left out here, before the keys are sorted.
+  std::vector<std::uint64_t> lately_ = std::vector<std::uint64_t>(std::size_t{1} << kHashBits, kNoKey);
+  std::vector<std::uint64_t> keys_;
 };
 }  // namespace gpu_planning_scene::core

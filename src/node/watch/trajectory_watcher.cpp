@@ -166,9 +166,9 @@ void TrajectoryWatcher::run()
     // A change is answered without a contact, because its search takes as long as the check. The contact follows at
     // once, unless changes come all the time.
     const bool with_contact = is_due || Clock::now() >= contact_due + kContactPeriods * period;
+    WatchState state = look(with_contact);
     if (with_contact)
       contact_due = Clock::now() + period;
-    WatchState state = look(with_contact);
     cancelGoals(state);
     for (Watched& each : watched_)
       if (each.start.isZero())
@@ -177,8 +177,9 @@ void TrajectoryWatcher::run()
     publisher_.publish(state);
     for (Order& order : orders)
       order.answer.set_value(state);
-    const Clock::time_point now = Clock::now();
-    due = state.verdict == WatchState::COLLISION ? std::clamp(contact_due, now, now + period) : now + period;
+    due = Clock::now();
+    if (state.verdict != WatchState::COLLISION || with_contact)
+      due += period;
     lock.lock();
   }
 }

@@ -251,6 +251,30 @@ TEST_F(BatchParts, AreWaitedForByCloseWhileADeviceWrites)
   EXPECT_THROW(batch->takeResult(), std::runtime_error);
 }
 
+TEST_F(BatchParts, AreWaitedForByCloseWhileADeviceReads)
+{
+  const auto batch = std::make_shared<Batch>(1, std::nullopt, 1);
+  std::promise<void> is_reading;
+  std::promise<void> gate;
+  const double state = 7.0;
+  batch->setDeviceRows(std::make_unique<const DeviceRows>(&state, 1, 1,
+                                                          [&](std::size_t /*row*/)
+                                                          {
+                                                            is_reading.set_value();
+                                                            gate.get_future().wait();
+                                                            return true;
+                                                          }));
+  double copied = 0.0;
+  auto reading = std::async(std::launch::async, [&] { batch->copyForDevice({0, 1}, &copied); });
+  is_reading.get_future().wait();
+  auto closing = std::async(std::launch::async, [&] { batch->close(); });
+  EXPECT_EQ(closing.wait_for(std::chrono::milliseconds(20)), std::future_status::timeout);
+  gate.set_value();
+  closing.get();
+  reading.get();
+  EXPECT_EQ(copied, state);
+}
+
 TEST_F(BatchParts, AreZerosForADeviceAfterTheEndOfTheBatch)
 {
   const auto batch = batchOf(10);

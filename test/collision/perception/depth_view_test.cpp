@@ -125,30 +125,6 @@ TEST(DepthView, SeesBehindALargeVoxelUnlessARayEndsNearIt)
       EXPECT_EQ(sees(x, y), y < 194 || y > 260) << x << " " << y;
 }
 
-TEST(DepthView, SeesBehindAVoxelWhereFewEnoughPixelsAreNotMeasured)
-{
-  const std::uint64_t seed = 11;
-  SCOPED_TRACE("seed " + std::to_string(seed));
-  std::mt19937_64 generator(seed);
-  const PinholeCamera camera{67, 41, 50.0, 45.0, 35.0, 19.0};
-  for (int k = 0; k < 300; ++k)
-  {
-    std::vector<float> depths(std::size_t{67} * 41, 3.0F);
-    const std::size_t holes = generator() % 800;
-    for (std::size_t i = 0; i < holes; ++i)
-      depths[generator() % depths.size()] = std::numeric_limits<float>::quiet_NaN();
-    const VoxelInView voxel = cubeAt({0.11, -0.11, 1.0}, 0.1);
-    // The columns 34 to 48 and the rows 7 to 20 are near it.
-    int unmeasured = 0;
-    for (int y = 7; y <= 20; ++y)
-      for (int x = 34; x <= 48; ++x)
-        unmeasured += std::isnan(depths[camera.pixel(x, y)]) ? 1 : 0;
-    const DepthView view(camera, depths);
-    EXPECT_TRUE(view.seesBehind(voxel, unmeasured)) << unmeasured;
-    EXPECT_FALSE(view.seesBehind(voxel, unmeasured - 0.5)) << unmeasured;
-  }
-}
-
 TEST(DepthView, DoesNotSeeThroughAFloorAtAGrazingAngle)
 {
   // The camera is 1 m above the floor and looks forward. The distance of two rays on the floor is larger than a voxel.
