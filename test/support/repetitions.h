@@ -4,7 +4,7 @@ namespace gpu_planning_scene::core
 {
 /// Number of repetitions of a randomised test: `few` in ./scripts/test, `many` in ./scripts/soak.
 template <class Number>
-constexpr Number repetitions(Number few, [[maybe_unused]] Number many)
+constexpr Number repetitions([[maybe_unused]] Number few, [[maybe_unused]] Number many)
 {
 #ifdef GPS_SOAK
   return many;
