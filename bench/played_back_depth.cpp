@@ -311,9 +311,8 @@ void run(const CommandLine& arguments)
   const Differences& found = playback.differences();
   std::printf(
       "| images | voxels at the end | measured voxels | missing | invented | voxels of the sheet | of them seen "
-      "through "
-      "%d times | of these left | of all left at the end | states that touch the map | ms of an image: median, largest "
-      "|\n"
+      "through %d times | of these left | of all left at the end | states that touch the map | ms of an image: median, "
+      "largest |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n"
       "| %d | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %zu | %.1f, %.1f |\n",
       kViewsToClear, images, playback.voxels(), found.compared, found.missing, found.invented, found.sheet,
@@ -330,13 +329,11 @@ int main(int argc, char** argv)
       "played_back_depth",
       "--disparities FILE --focal-length F --cx X --cy Y --baseline B [--offset D] [--images N] [--range R]\n"
       "[--resolution L]",
-      "Plays a measured disparity image, for example of the Middlebury stereo datasets, to the map of sensors. A "
-      "camera\n"
-      "of 640 x 480 pixels pans over the image, the demo's arm swings in front of it, and a sheet comes and goes. The\n"
-      "map is compared with the points of the images: all their voxels must be there, within one voxel, and no "
-      "others.\n"
-      "The sheet must be gone after three images. Prints a Markdown table. Exit code: 0 no difference, 1 a difference\n"
-      "or another error, 2 bad usage.",
+      "Plays a measured disparity image, for example of the Middlebury stereo datasets, to the map of sensors. A\n"
+      "camera of 640 x 480 pixels pans over the image, the demo's arm swings in front of it, and a sheet comes and\n"
+      "goes. The map is compared with the points of the images: all their voxels must be there, within one voxel, and\n"
+      "no others. A voxel of the sheet must be gone after three images that see through it. Prints a Markdown table.\n"
+      "Exit code: 0 no difference, 1 a difference or another error, 2 bad usage.",
       {{"--disparities", "FILE", "a portable float map (Pf): pixels; not finite: not measured"},
        {"--focal-length", "F", "pixels"},
        {"--cx", "X", "pixels: the principal point of the left camera"},

@@ -81,7 +81,7 @@ struct OccupancyMapOptions
 /// that was measured after it.
 ///
 /// A ray that is not measured may have met a body that the camera cannot measure. So the measurement does not see
-/// through a voxel near such a ray.
+/// through a voxel near such a ray. A single pixel among measured ones does not count.
 ///
 /// The robot, its attached objects, and objects that the caller names are left out by their exact geometry: see
 /// SensorView::padding and cubes(). Voxels that were occupied before the robot came near them stay.
