@@ -60,7 +60,6 @@ class FakeMaster:
 
     def add(self, service, serve):
         listener = socket.socket()
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)  # who does not read, takes little
         listener.bind(("localhost", 0))
         listener.listen()
         self._addresses[service] = f"rosrpc://localhost:{listener.getsockname()[1]}"

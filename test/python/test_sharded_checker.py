@@ -33,6 +33,8 @@ def silent(_connection):
 
 
 def deaf(connection):
+    """Does not read a request. Its buffer is small, so the client cannot write the whole request either."""
+    connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
     shake_hands(connection)
     time.sleep(LONG)
 
@@ -149,9 +151,19 @@ class Client(unittest.TestCase):
     def test_another_node_takes_the_large_part_of_a_node_that_hangs_or_is_killed(self):
         states = 4 * LARGE_PART  # two parts for each node
         request = CheckStatesRequest(joint_names=["joint"], positions=states * [0.0])
-        for node in ("/silent", "/deaf", "/dying"):
-            check = ShardedChecker([node, "/free"], part_states=LARGE_PART, timeout=5.0, patience=LONG)
-            answer = check(request)
+        answers = {}
+
+        def call(node):
+            check = ShardedChecker([node, "/free"], part_states=LARGE_PART, timeout=SOON, patience=LONG)
+            answers[node] = check(request)
+
+        threads = [threading.Thread(target=call, args=(node,)) for node in ("/silent", "/deaf", "/dying")]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(3, len(answers))
+        for node, answer in answers.items():
             self.assertTrue(answer.success, answer.message)
             self.assertEqual(states * b"\1", answer.valid, node)
 
