@@ -151,7 +151,7 @@ class Playback
     const auto start = std::chrono::steady_clock::now();
     const double time = number / 15.0;  // 15 images a second
     map_.add(image, {pose_, time, time, 0.0, range_, kPadding}, *scene_, state_.data());
-    const std::vector<PlacedShape> cubes = map_.cubes(*scene_, state_.data());
+    const std::vector<PlacedShape> cubes = map_.cubes(*scene_, state_.data()).cubes;
     const double seconds = secondsSince(start);
     compare(cubes, number);
     if (phase_ % 10 == 0 && touches(cubes))

@@ -67,6 +67,13 @@ struct OccupancyMapOptions
   std::size_t max_voxels = 200'000;  ///< see add()
 };
 
+/// The voxels as shapes of a scene: see OccupancyMap::cubes().
+struct VoxelCubes
+{
+  std::vector<PlacedShape> cubes;
+  bool are_whole = true;  ///< false: the robot touches a voxel, so a part of it is missing
+};
+
 /// The voxels that depth cameras and laser scanners have found occupied. Free space is not stored, because the scene
 /// does not need it.
 ///
@@ -113,9 +120,11 @@ class OccupancyMap
   void removeNear(const std::set<std::string>& objects, double padding, const PlanningScene& scene,
                   const double* state);
 
-  /// The occupied voxels as cubes in the planning frame, without cubes that touch the robot or its attached objects in
-  /// `state`.
-  std::vector<PlacedShape> cubes(const PlanningScene& scene, const double* state);
+  /// The occupied voxels as cubes in the planning frame. The robot in `state`, with its attached objects, does not
+  /// touch them: a voxel that it touches is replaced by those of its parts, cubes of half and of a quarter of its edge,
+  /// that are free of the robot and its paddings by at least 1 mm. So the robot can leave such a voxel, and a motion
+  /// further into it collides with what is left of it. Null: nothing is known about the robot, and all voxels are whole.
+  VoxelCubes cubes(const PlanningScene& scene, const double* state);
 
   /// The number of occupied voxels.
   std::size_t size() const;

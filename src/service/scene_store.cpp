@@ -63,14 +63,6 @@ std::vector<double> startingState(const Snapshot& at, const std::map<std::string
   return at.state;
 }
 
-std::vector<std::string> namesOf(const std::vector<Variable>& variables)
-{
-  std::vector<std::string> names;
-  for (const Variable& variable : variables)
-    names.push_back(variable.name);
-  return names;
-}
-
 /// Sets the given variables. Names that the robot lacks are ignored.
 void assign(const RobotModel& robot, const std::map<std::string, double>& variables, std::vector<double>& state,
             std::vector<bool>& known)
@@ -160,7 +152,7 @@ void dropMeasured(const Snapshot& now, SceneChange& change)
 }
 
 SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits limits, BaseSource base_source)
-  : history_(namesOf(scene.robot->variables())),
+  : history_(*scene.robot),
     defaults_(std::move(defaults)),
     limits_(limits),
     base_source_(std::move(base_source)),
@@ -188,10 +180,20 @@ Snapshot SceneStore::snapshot() const
     std::vector<double> ages;
     for (const Clock::time_point at : measured_at_)
       ages.push_back(at == Clock::time_point::min() ? std::numeric_limits<double>::infinity() : secondsSince(at));
-    now = {scene_, state_, known_, ages, {}, oldest == std::numeric_limits<std::int64_t>::max() ? 0 : oldest};
+    now = {scene_, state_, known_, ages, {}, {}, oldest == std::numeric_limits<std::int64_t>::max() ? 0 : oldest,
+           stamps_};
   }
   now.base = assumeBase(0, now.known, now.state);
+  const std::lock_guard<std::mutex> lock(octomap_mutex_);
+  if (octomap_fault_)
+    now.octomap_fault = octomap_fault_();
   return now;
+}
+
+void SceneStore::setOctomapFault(std::function<std::string()> find)
+{
+  const std::lock_guard<std::mutex> lock(octomap_mutex_);
+  octomap_fault_ = std::move(find);
 }
 
 /// Sets the virtual joint in `state` if base_source_ has a value for it and no state has set it. Called without a lock.
@@ -417,7 +419,7 @@ std::vector<double> SceneStore::stateAt(std::int64_t stamp) const
     state = state_;
     known = known_;
     if (stamp != 0)
-      history_.setNearest(stamp, state);
+      history_.setAt(stamp, state);
   }
   assumeBase(stamp, known, state);
   return state;

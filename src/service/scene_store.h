@@ -35,8 +35,11 @@ struct Snapshot
   std::vector<bool> known;    ///< one per variable; an unknown variable has its default value, or that of `base`
   std::vector<double> ages;   ///< one per variable: seconds since SceneStore::updateState has set it; else infinity
   AssumedBase base = {};
+  /// Why the octomap may not be that of now, in one line (SceneStore::setOctomapFault). Empty: nothing is wrong with it.
+  std::string octomap_fault = {};
   /// The oldest stamp (nanoseconds) of the known values; 0: a known value has no stamp, or no value is known.
   std::int64_t stamp = 0;
+  std::vector<std::int64_t> stamps = {};  ///< of the values (nanoseconds), one per variable; 0: none
 
   /// Whether SceneStore::updateState has set the variable in the last second. This is longer than between two messages
   /// of a running robot's joints. A joint whose messages end takes values from others.
@@ -92,6 +95,9 @@ class SceneStore
 
   /// From now on, only sense() changes the octomap of the scene: apply() and clear() leave it, see keepingOctomap.
   void reserveOctomap() { octomap_is_sensed_ = true; }
+  /// `find`: returns Snapshot::octomap_fault. It is called for each snapshot; it must be thread-safe, must not wait, and
+  /// must not use the store. An empty function ends this, and is waited for.
+  void setOctomapFault(std::function<std::string()> find);
   /// As apply(), for a change by sensors, which needs no frames.
   Applied sense(const SceneChange& change) { return make(change, {}, false); }
 
@@ -128,9 +134,8 @@ class SceneStore
   /// value counts all the same, as in MoveIt. Otherwise returns an empty text. A variable whose value is not finite is
   /// unknown from then on: its old value may be wrong by now. After the others are set, it throws Error.
   std::string updateState(const std::map<std::string, double>& variables, std::int64_t stamp = 0);
-  /// The state with the values whose stamps are nearest to `stamp` (nanoseconds; 0: the newest state). A variable
-  /// without stamps has its newest value. Throws Error if a value of that time is not there or not kept any more (see
-  /// StateHistory), and the errors of BaseSource.
+  /// The state at `stamp` (nanoseconds; 0: the newest state), from the values before and after it. A variable without
+  /// stamps has its newest value. Throws the errors of StateHistory::setAt and of BaseSource.
   std::vector<double> stateAt(std::int64_t stamp) const;
 
   /// Called after each change with the scenes before and after it, in the order of revisions. During the call, readers
@@ -166,6 +171,8 @@ class SceneStore
   std::size_t replaced_shapes_ = 0;
   mutable std::condition_variable arrived_;
   std::atomic<bool> octomap_is_sensed_{false};
+  mutable std::mutex octomap_mutex_;  // guards the next member; held during its call
+  std::function<std::string()> octomap_fault_;
   const SceneDefaults defaults_;
   const SceneLimits limits_;
   const BaseSource base_source_;

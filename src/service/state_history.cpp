@@ -1,21 +1,43 @@
 #include "service/state_history.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <iterator>
 
 #include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/interpolation.h"
 
 namespace gpu_planning_scene::core
 {
+StateHistory::StateHistory(const RobotModel& robot)
+{
+  for (const Variable& variable : robot.variables())
+    values_.push_back({variable.name});
+  for (const Joint& joint : robot.joints())
+  {
+    if (joint.mimic)
+      continue;
+    const auto first = static_cast<std::size_t>(joint.first_variable);
+    if (joint.type == JointType::Continuous)
+      values_[first].kind = Kind::Angle;
+    else if (joint.type == JointType::Planar)
+      values_[first + 2].kind = Kind::Angle;
+    else if (joint.type == JointType::Floating)
+      for (std::size_t i = 3; i < 7; ++i)
+        values_[first + i].kind = Kind::Quaternion;
+  }
+}
+
 void StateHistory::add(std::size_t variable, double value, std::int64_t stamp)
 {
   Values& values = values_[variable];
   std::deque<Stamped>& by_stamp = values.by_stamp;
   if (stamp == 0)
   {
-    values = {};
+    by_stamp.clear();
+    values.forgot = false;
     return;
   }
   if (!by_stamp.empty() && by_stamp.back().stamp > stamp + kNear)
@@ -35,8 +57,19 @@ void StateHistory::add(std::size_t variable, double value, std::int64_t stamp)
   }
 }
 
+/// Whether the last two values differ.
+bool StateHistory::moves(const Values& values)
+{
+  const std::deque<Stamped>& by_stamp = values.by_stamp;
+  if (by_stamp.size() < 2)
+    return false;
+  const double from = by_stamp[by_stamp.size() - 2].value;
+  const double to = by_stamp.back().value;
+  return std::abs(values.kind == Kind::Angle ? shortestAngularDistance(from, to) : to - from) > kStands;
+}
+
 /// `values` has at least one.
-const StateHistory::Stamped& StateHistory::nearest(const Values& values, std::int64_t stamp)
+double StateHistory::valueAt(const Values& values, std::int64_t stamp)
 {
   const std::deque<Stamped>& by_stamp = values.by_stamp;
   const auto after = std::lower_bound(by_stamp.begin(), by_stamp.end(), stamp,
@@ -44,23 +77,36 @@ const StateHistory::Stamped& StateHistory::nearest(const Values& values, std::in
   if (after == by_stamp.begin() && values.forgot && after->stamp != stamp)
     throw Error("the robot's state of " + std::to_string((by_stamp.back().stamp - stamp) / 1'000'000'000) +
                 " s ago is not available; the last " + std::to_string(kKept / 1'000'000'000) + " s are kept");
-  if (after == by_stamp.end() || (after != by_stamp.begin() && after->stamp - stamp >= stamp - std::prev(after)->stamp))
-    return *std::prev(after);
-  return *after;
+  const bool before_is_nearer =
+      after == by_stamp.end() ||
+      (after != by_stamp.begin() && after->stamp - stamp >= stamp - std::prev(after)->stamp);
+  const Stamped& nearest = before_is_nearer ? *std::prev(after) : *after;
+  if (const std::int64_t difference = std::abs(nearest.stamp - stamp); difference > kNear)
+    throw Error("the nearest known value of '" + values.name + "' is " +
+                numberText(1e-9 * static_cast<double>(difference)) +
+                " s away in time; publish joint_states at least every second, with the same clock");
+  if (after == by_stamp.end())
+  {
+    if (moves(values))
+      throw NotKnownYet("'" + values.name +
+                        "' moves, and joint_states has brought no value of this time or later; publish it more often, "
+                        "with the same clock");
+    return nearest.value;
+  }
+  if (after == by_stamp.begin() || after->stamp == stamp || values.kind == Kind::Quaternion)
+    return nearest.value;
+  const Stamped& before = *std::prev(after);
+  const double share =
+      static_cast<double>(stamp - before.stamp) / static_cast<double>(after->stamp - before.stamp);
+  const double change = values.kind == Kind::Angle ? shortestAngularDistance(before.value, after->value)
+                                                   : after->value - before.value;
+  return before.value + share * change;
 }
 
-void StateHistory::setNearest(std::int64_t stamp, std::vector<double>& state) const
+void StateHistory::setAt(std::int64_t stamp, std::vector<double>& state) const
 {
   for (std::size_t i = 0; i < values_.size(); ++i)
-  {
-    if (values_[i].by_stamp.empty())
-      continue;
-    const Stamped& found = nearest(values_[i], stamp);
-    if (const std::int64_t difference = std::abs(found.stamp - stamp); difference > kNear)
-      throw Error("the nearest known value of '" + names_[i] + "' is " +
-                  numberText(1e-9 * static_cast<double>(difference)) +
-                  " s away in time; publish joint_states at least every second, with the same clock");
-    state[i] = found.value;
-  }
+    if (!values_[i].by_stamp.empty())
+      state[i] = valueAt(values_[i], stamp);
 }
 }  // namespace gpu_planning_scene::core

@@ -3,8 +3,9 @@
 #include <cstdint>
 #include <deque>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "gpu_planning_scene/robot_model.h"
 
 namespace gpu_planning_scene::core
 {
@@ -14,20 +15,28 @@ class StateHistory
 {
  public:
   static constexpr std::int64_t kKept = 10'000'000'000;  ///< nanoseconds before the newest stamp of a variable
-  static constexpr std::int64_t kNear = 1'000'000'000;   ///< nanoseconds: the largest difference of setNearest()
+  static constexpr std::int64_t kNear = 1'000'000'000;   ///< nanoseconds: the largest difference of setAt()
+  static constexpr double kStands = 1e-3;  ///< radians or metres: a variable that changes by no more stands still
 
-  /// `names`: of the variables, for messages.
-  explicit StateHistory(std::vector<std::string> names) : names_(std::move(names)), values_(names_.size()) {}
+  explicit StateHistory(const RobotModel& robot);
 
   /// A stamp of 0 means "no stamp": the variable then has no history. If a value is more than kNear later than `stamp`,
   /// the clock was set back, and all later values are dropped.
   void add(std::size_t variable, double value, std::int64_t stamp);
 
-  /// Sets each variable that has a history to its value at the nearest stamp (nanoseconds). Throws Error if this stamp
-  /// differs by more than kNear, or if `stamp` is before all kept values and older ones were dropped.
-  void setNearest(std::int64_t stamp, std::vector<double>& state) const;
+  /// Sets each variable that has a history to its value at `stamp` (nanoseconds): on a straight line between the values
+  /// before and after it, and for a quaternion the nearest value. Throws NotKnownYet if a variable moves and has no
+  /// value at or after `stamp` yet. Throws Error if the nearest value is more than kNear away, or if `stamp` is before
+  /// all kept values and older ones were dropped.
+  void setAt(std::int64_t stamp, std::vector<double>& state) const;
 
  private:
+  enum class Kind
+  {
+    Linear,
+    Angle,      // a whole turn changes nothing
+    Quaternion  // a component
+  };
   struct Stamped
   {
     std::int64_t stamp;
@@ -35,13 +44,15 @@ class StateHistory
   };
   struct Values
   {
-    std::deque<Stamped> by_stamp;
+    std::string name;
+    Kind kind = Kind::Linear;
+    std::deque<Stamped> by_stamp = {};
     bool forgot = false;  // whether older values were dropped
   };
 
-  static const Stamped& nearest(const Values& values, std::int64_t stamp);
+  static double valueAt(const Values& values, std::int64_t stamp);
+  static bool moves(const Values& values);
 
-  std::vector<std::string> names_;
   std::vector<Values> values_;
 };
 }  // namespace gpu_planning_scene::core

@@ -300,7 +300,7 @@ class Handlers
   {
     const Snapshot now = store_.snapshot();
     map_.add(depthImageOf(message, camera_), {}, *now.scene, now.state.data());
-    replaceObject(store_, kOctomapId, map_.cubes(*now.scene, now.state.data()));
+    replaceObject(store_, kOctomapId, map_.cubes(*now.scene, now.state.data()).cubes);
   }
 
   SceneStore store_;

@@ -12,6 +12,7 @@
 #include "collision/perception/voxel_grid.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/octomap.h"
 #include "model/rigid_pose.h"
 
 namespace gpu_planning_scene::core
@@ -33,6 +34,11 @@ bool isBefore(double time, double other)
 {
   return time < other && other - time <= kMaxDelay;
 }
+
+// Metres between the robot and the parts of a voxel that it touches. A motion out of the voxel could not be proven free
+// if they almost touched.
+constexpr double kClearance = 1e-3;
+constexpr int kSplits = 2;  // of a voxel that the robot touches
 
 struct Voxel
 {
@@ -60,6 +66,19 @@ struct VoxelProjection
 
   VoxelInView view(const Vector3d& centre) const { return {to_camera * centre, extent, inner_radius}; }
 };
+
+/// The largest required distance between a voxel and a body of the robot, by their paddings.
+double requiredDistance(const PlanningScene& scene)
+{
+  double of_links = 0.0;
+  for (const double padding : scene.link_padding)
+    of_links = std::max(of_links, padding);
+  double of_objects = 0.0;
+  for (const AttachedObject& attached : scene.attached)
+    of_objects = std::max(of_objects, attached.padding);
+  const WorldObject* const octomap = scene.findObject(kOctomapId);
+  return of_links + of_objects + (octomap != nullptr ? octomap->padding : 0.0);
+}
 
 bool hasSmallerKey(const Voxel& a, const Voxel& b)
 {
@@ -275,12 +294,33 @@ void OccupancyMap::removeNear(const std::set<std::string>& objects, double paddi
   removeFlagged(impl_->voxels, impl_->bodies.near(impl_->grid, centres, scene, state, padding, objects), kNearObject);
 }
 
-std::vector<PlacedShape> OccupancyMap::cubes(const PlanningScene& scene, const double* state)
+VoxelCubes OccupancyMap::cubes(const PlanningScene& scene, const double* state)
 {
-  validateStates(*scene.robot, state, 1);
   std::vector<Vector3d> centres = impl_->centresOf(impl_->voxels);
-  removeFlagged(centres, impl_->bodies.near(impl_->grid, centres, scene, state, 0.0, {}), kNearRobot);
-  return impl_->grid.cubesAt(centres);
+  if (state == nullptr)
+    return {impl_->grid.cubesAt(centres)};
+  validateStates(*scene.robot, state, 1);
+  VoxelCubes visible;
+  VoxelGrid grid = impl_->grid;
+  std::vector<std::uint8_t> touches = impl_->bodies.near(grid, centres, scene, state, 0.0, {});
+  for (int split = 0;; ++split)
+  {
+    std::vector<Vector3d> touched = centres;
+    removeFlagged(centres, touches, kNearRobot);
+    for (PlacedShape& cube : grid.cubesAt(centres))
+      visible.cubes.push_back(std::move(cube));
+    if (centres.size() == touched.size())
+      return visible;
+    visible.are_whole = false;
+    if (split == kSplits)
+      return visible;
+    for (std::uint8_t& flag : touches)
+      flag ^= kNearRobot;
+    removeFlagged(touched, touches, kNearRobot);
+    centres = grid.eighthsOf(touched);
+    grid = VoxelGrid(0.5 * grid.size());
+    touches = impl_->bodies.near(grid, centres, scene, state, requiredDistance(scene) + kClearance, {});
+  }
 }
 
 std::size_t OccupancyMap::size() const

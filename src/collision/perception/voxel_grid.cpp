@@ -40,6 +40,19 @@ Vector3d VoxelGrid::centreOf(std::uint64_t key) const
   return centre;
 }
 
+std::vector<Vector3d> VoxelGrid::eighthsOf(const std::vector<Vector3d>& centres) const
+{
+  const double quarter = 0.25 * size_;
+  std::vector<Vector3d> eighths;
+  eighths.reserve(8 * centres.size());
+  for (const Vector3d& centre : centres)
+    for (const double x : {-quarter, quarter})
+      for (const double y : {-quarter, quarter})
+        for (const double z : {-quarter, quarter})
+          eighths.emplace_back(centre + Vector3d(x, y, z));
+  return eighths;
+}
+
 std::vector<PlacedShape> VoxelGrid::cubesAt(const std::vector<Vector3d>& centres) const
 {
   const Shape cube = Box{Vector3d::Constant(size_)};

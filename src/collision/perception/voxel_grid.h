@@ -22,6 +22,8 @@ class VoxelGrid
   /// The voxel that contains a point of the planning frame. Throws Error for a point that is too far from the origin.
   std::uint64_t keyOf(const Eigen::Vector3d& point) const;
   Eigen::Vector3d centreOf(std::uint64_t key) const;
+  /// The centres of the eight cubes of half the edge in each voxel with one of these centres.
+  std::vector<Eigen::Vector3d> eighthsOf(const std::vector<Eigen::Vector3d>& centres) const;
   /// A cube around each centre, in the planning frame.
   std::vector<PlacedShape> cubesAt(const std::vector<Eigen::Vector3d>& centres) const;
 

@@ -27,6 +27,8 @@ RequestedScene requestedScene(const SceneStore& store, const SceneStore::Lookup&
                                            [&requested](const SceneChange& change)
                                            { return dependsOnRobotState(*requested.now.scene, change); });
   requested.warnings.insert(requested.warnings.end(), preview.warnings.begin(), preview.warnings.end());
+  if (!requested.now.octomap_fault.empty())
+    requested.warnings.push_back(requested.now.octomap_fault);
   if (isEmpty(matrix))
     return requested;
   requested.matrix = std::make_shared<const AllowedCollisionMatrix>(matrixFrom(matrix, store.limits()));

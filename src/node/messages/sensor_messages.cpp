@@ -96,6 +96,10 @@ PinholeCamera cameraOf(const sensor_msgs::CameraInfo& info)
   if (is_distorted && !(info.P[0] > 0.0))
     throw Error("camera_info has distortion, but no projection matrix P; send rectified images with their camera_info");
   const bool is_rectified = info.P[0] > 0.0;  // P has rows of four numbers, K of three
+  if (is_rectified && (info.P[3] != 0.0 || info.P[7] != 0.0))
+    throw Error(
+        "camera_info is of the second camera of a stereo pair: P[3] or P[7] is not 0, so its frame is that of the "
+        "first camera; send the depth image of the first camera");
   camera.fx = is_rectified ? info.P[0] : info.K[0];
   camera.cx = is_rectified ? info.P[2] : info.K[2];
   camera.fy = is_rectified ? info.P[5] : info.K[4];

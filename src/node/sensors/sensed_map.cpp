@@ -38,20 +38,23 @@ SensedMap::SensedMap(SceneStore& store, const OccupancyMapOptions& options, doub
   if (store_.snapshot().scene->findObject(kOctomapId))
     throw Error("parameter ~scene: the scene has an octomap, which the sensors of ~sensors would replace; remove it");
   store_.reserveOctomap();
+  store_.setListener(this, [this](const auto& before, const auto& after) { noteAttached(*before, after); });
 }
 
-void SensedMap::add(const Measurement& measurement, const SensorView& view, const std::vector<double>& state)
+SensedMap::~SensedMap()
+{
+  store_.setListener(this, {});
+}
+
+std::size_t SensedMap::add(const Measurement& measurement, const SensorView& view, const std::vector<double>& state)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
+  followObjects();
   const Snapshot now = store_.snapshot();
-  followObjects(*now.scene, now.state);
   const std::size_t without_room = std::visit(
       [&](const auto& measured) { return map_.add(measured, view, *now.scene, state.data(), excluded_); }, measurement);
   publish();
-  if (without_room > 0)
-    throw Error(std::to_string(without_room) +
-                " voxels are not in the scene, the farthest from the robot, because ~limits/voxels is reached; use "
-                "larger voxels (~octomap_resolution), a shorter range or a region");
+  return without_room;
 }
 
 std::uint64_t SensedMap::exclude(const std::set<std::string>& objects)
@@ -62,9 +65,8 @@ std::uint64_t SensedMap::exclude(const std::set<std::string>& objects)
     if (!now.scene->findObject(id) && !now.scene->findAttached(id))
       throw Error("the scene has no object '" + id + "'; add it first");
   map_.removeNear(difference(objects, attachedIds(*now.scene)), padding_, *now.scene, now.state.data());
-  const std::uint64_t revision = publish();
   excluded_ = objects;
-  return revision;
+  return publish();
 }
 
 std::uint64_t SensedMap::clear()
@@ -77,23 +79,48 @@ std::uint64_t SensedMap::clear()
 void SensedMap::republish()
 {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!hides_voxels_)
+  if (!followObjects() && !hides_voxels_)
     return;
   if (const std::string error = errorOf([this] { publish(); }); !error.empty())
     ROS_ERROR_STREAM_THROTTLE(10.0, "the octomap of the sensors stays as it is: " << error);
 }
 
-/// Objects that were attached since the last measurement lose their voxels, and ids of removed objects are not excluded
-/// any more. mutex_ is held.
-void SensedMap::followObjects(const PlanningScene& scene, const std::vector<double>& state)
+/// Called during a change of the scene, so it only notes what followObjects() does: an object that is attached is
+/// carried away from its voxels.
+void SensedMap::noteAttached(const PlanningScene& before, const std::shared_ptr<const PlanningScene>& after)
 {
-  const std::set<std::string> attached = attachedIds(scene);
-  if (const std::set<std::string> added = difference(attached, attached_); !added.empty())
-    map_.removeNear(added, padding_, scene, state.data());
-  attached_ = attached;
+  if (std::set<std::string> ids = difference(attachedIds(*after), attachedIds(before)); !ids.empty())
+  {
+    const std::lock_guard<std::mutex> lock(attached_mutex_);
+    attached_.push_back({std::move(ids), after, store_.snapshot().state});
+  }
+}
+
+/// Objects that were attached since the last call lose the voxels of the place where they were then, and ids of removed
+/// objects are not excluded any more. Returns whether an object was attached. mutex_ is held.
+bool SensedMap::followObjects()
+{
+  bool has_followed = false;
+  for (std::optional<Attached> next = takeAttached(); next; next = takeAttached())
+  {
+    map_.removeNear(next->ids, padding_, *next->scene, next->state.data());
+    has_followed = true;
+  }
+  const std::shared_ptr<const PlanningScene> scene = store_.snapshot().scene;
   for (const std::string& id : std::set<std::string>(excluded_))
-    if (!scene.findObject(id) && !scene.findAttached(id))
+    if (!scene->findObject(id) && !scene->findAttached(id))
       excluded_.erase(id);
+  return has_followed;
+}
+
+std::optional<SensedMap::Attached> SensedMap::takeAttached()
+{
+  const std::lock_guard<std::mutex> lock(attached_mutex_);
+  if (attached_.empty())
+    return std::nullopt;
+  std::optional<Attached> first = std::move(attached_.front());
+  attached_.pop_front();
+  return first;
 }
 
 /// Puts the voxels into the scene. Returns the scene's revision. mutex_ is held.
@@ -101,10 +128,9 @@ std::uint64_t SensedMap::publish()
 {
   hides_voxels_ = true;  // until the scene has the voxels: an error must not end the tries
   const Snapshot now = store_.snapshot();
-  std::vector<PlacedShape> cubes = map_.cubes(*now.scene, now.state.data());
-  const bool hides_voxels = cubes.size() < map_.size();
-  replaceObject(store_, kOctomapId, std::move(cubes));
-  hides_voxels_ = hides_voxels;
+  VoxelCubes visible = map_.cubes(*now.scene, now.allKnown() ? now.state.data() : nullptr);
+  replaceObject(store_, kOctomapId, std::move(visible.cubes));
+  hides_voxels_ = !visible.are_whole || !now.allKnown();
   return store_.snapshot().scene->revision;
 }
 }  // namespace gpu_planning_scene::core

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
 #include <variant>
@@ -21,11 +24,14 @@ class SensedMap
   /// Reserves the octomap (SceneStore::reserveOctomap). `padding`: metres, the largest padding of the sensors. `store`
   /// must outlive this object. Throws Error if the scene already has an octomap, or if an option is not valid.
   SensedMap(SceneStore& store, const OccupancyMapOptions& options, double padding);
+  ~SensedMap();
+  SensedMap(const SensedMap&) = delete;
+  SensedMap& operator=(const SensedMap&) = delete;
 
   /// Puts a measurement into the map, and the map into the scene. `state`: one value per variable, of the time of the
   /// measurement. Throws the errors of OccupancyMap::add and SceneStore::sense. Throws
   /// Error if some voxels found no room; the others are in the scene then.
-  void add(const Measurement& measurement, const SensorView& view, const std::vector<double>& state);
+  std::size_t add(const Measurement& measurement, const SensorView& view, const std::vector<double>& state);
 
   /// From now on, these objects are left out of the map, and no others. Their voxels are removed. Returns the revision
   /// of the scene without them. Throws Error if the scene has no such object.
@@ -34,12 +40,22 @@ class SensedMap
   /// Forgets all voxels. Returns the revision of the scene without them.
   std::uint64_t clear();
 
-  /// Puts voxels into the scene that were hidden because the robot touched them, if it has left them. An error is
-  /// logged, not thrown.
+  /// Brings the scene up to date without a measurement: voxels that the robot has left are whole again, and voxels of
+  /// objects that were attached are removed. An error is logged, not thrown.
   void republish();
 
  private:
-  void followObjects(const PlanningScene& scene, const std::vector<double>& state);
+  /// Objects that were attached, in the scene and the state of that moment.
+  struct Attached
+  {
+    std::set<std::string> ids;
+    std::shared_ptr<const PlanningScene> scene;
+    std::vector<double> state;
+  };
+
+  void noteAttached(const PlanningScene& before, const std::shared_ptr<const PlanningScene>& after);
+  bool followObjects();
+  std::optional<Attached> takeAttached();
   std::uint64_t publish();
 
   SceneStore& store_;
@@ -47,7 +63,9 @@ class SensedMap
   std::mutex mutex_;  // guards the members below
   OccupancyMap map_;
   std::set<std::string> excluded_;
-  std::set<std::string> attached_;  // objects whose voxels were removed when they were attached
-  bool hides_voxels_ = false;       // voxels that the robot touches are not in the scene
+  bool hides_voxels_ = false;  // parts of voxels that the robot touches are not in the scene
+
+  std::mutex attached_mutex_;      // guards the next member
+  std::deque<Attached> attached_;  // whose voxels are still in the map
 };
 }  // namespace gpu_planning_scene::core

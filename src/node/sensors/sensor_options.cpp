@@ -26,6 +26,7 @@ const std::vector<std::string> kSensorKeys = {"image_topic",
                                               "max_range",
                                               "padding_offset",
                                               "max_update_rate",
+                                              "max_silence",
                                               "point_subsample",
                                               "sensor_plugin",  // the topic's name tells the kind of the sensor
                                               "queue_size",     // only the newest measurement waits
@@ -35,6 +36,8 @@ const std::vector<std::string> kSensorKeys = {"image_topic",
 const std::vector<std::string> kIgnoredKeys = {
     "filtered_cloud_topic", "filtered_cloud_use_color", "filtered_cloud_keep_organized", "shadow_threshold",
     "padding_scale",        "skip_vertical_pixels",     "skip_horizontal_pixels"};
+
+constexpr double kSilentPeriods = 3.0;  // of max_update_rate: the default of max_silence is at least so long
 
 /// An entry of the list.
 class Entry
@@ -114,6 +117,9 @@ SensorOptions sensorFrom(const Entry& entry, const ros::NodeHandle& node)
     throw Error(entry.where() + ": the range ends before it begins");
   sensor.padding = entry.number("padding_offset", sensor.padding, 0.0);
   sensor.max_rate = entry.number("max_update_rate", sensor.max_rate, 0.0);
+  if (sensor.max_rate > 0.0)
+    sensor.max_silence = std::max(sensor.max_silence, kSilentPeriods / sensor.max_rate);
+  sensor.max_silence = entry.number("max_silence", sensor.max_silence, 0.0);
   const double step = entry.number("point_subsample", 1.0, 1.0);
   if (step != std::floor(step) || step > 1e6)
     throw Error(entry.where() + ": point_subsample is not an integer from 1 to 1000000");

@@ -5,6 +5,8 @@
 
 #include <ros/this_node.h>
 
+#include "base/text/number_text.h"
+
 namespace gpu_planning_scene::core
 {
 namespace
@@ -12,11 +14,17 @@ namespace
 using diagnostic_msgs::DiagnosticStatus;
 
 constexpr double kLongestSilence = 1.0;  // seconds
+constexpr double kShownLoss = 10.0;      // seconds: statuses are published each second, and measurements more often
 constexpr double kLoggedSilence = 5.0;   // seconds: drivers of cameras may start after the node
 }  // namespace
 
-void SensorRecord::use(double its_lag)
+void SensorRecord::use(double its_lag, const std::string& lost)
 {
+  if (!lost.empty())
+  {
+    loss = lost;
+    lost_at = ros::SteadyTime::now();
+  }
   ++used;
   used_at = ros::SteadyTime::now();
   silence_is_logged = false;
@@ -29,6 +37,16 @@ void SensorRecord::reject(const std::string& why)
 {
   ++rejected;
   fault = why;
+}
+
+std::string SensorRecord::outdated(const std::string& topic, double seconds) const
+{
+  const double silent = (ros::SteadyTime::now() - used_at).toSec();
+  if (seconds == 0.0 || (used > 0 && silent <= seconds))
+    return "";
+  return "the octomap may be out of date: no measurement of sensor " + topic + " was used " +
+         (used > 0 ? "for " + numberText(silent) + " s" : "yet") +
+         (fault.empty() ? "" : "; the last one was rejected: " + fault);
 }
 
 std::string SensorRecord::silence(const std::string& topic)
@@ -53,6 +71,11 @@ DiagnosticStatus SensorRecord::status(const std::string& topic)
   {
     status.level = DiagnosticStatus::ERROR;
     status.message = "the octomap does not follow this sensor: " + fault;
+  }
+  else if (!loss.empty() && (ros::SteadyTime::now() - lost_at).toSec() < kShownLoss)
+  {
+    status.level = DiagnosticStatus::ERROR;
+    status.message = loss;
   }
   else if (used == 0 || (ros::SteadyTime::now() - used_at).toSec() > kLongestSilence)
   {

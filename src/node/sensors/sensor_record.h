@@ -17,19 +17,26 @@ struct SensorRecord
   ros::SteadyTime used_at = ros::SteadyTime::now();  ///< of the last used measurement; before it, the start
   bool silence_is_logged = false;
   std::string fault;         ///< of the last measurement; empty if it was used
+  std::string loss;          ///< the last one, see use()
+  ros::SteadyTime lost_at;   ///< of `loss`
   double lag = 0.0;          ///< seconds from the stamp of the last used measurement to the scene with it
   double longest_lag = 0.0;  ///< since the last call of status()
 
-  /// Counts a measurement that is in the scene. `its_lag`: seconds, see `lag`.
-  void use(double its_lag);
+  /// Counts a measurement that is in the scene. `its_lag`: seconds, see `lag`. `lost`: which voxels are not in the scene
+  /// although they were measured, in one line, or empty.
+  void use(double its_lag, const std::string& lost);
   /// Counts a measurement that is not in the scene. `why`: one line.
   void reject(const std::string& why);
+
+  /// One line if no measurement was used in the last `seconds`, otherwise empty. 0: always empty.
+  std::string outdated(const std::string& topic, double seconds) const;
 
   /// A line for the log if no measurement was used for so long that the user should look. Empty if one was used, or if
   /// this silence got its line already.
   std::string silence(const std::string& topic);
 
-  /// ERROR if the last measurement was rejected, WARN if none was used for a second. Resets `longest_lag`.
+  /// ERROR if the last measurement was rejected or voxels were lost in the last 10 s, WARN if no measurement was used
+  /// for a second. Resets `longest_lag`.
   diagnostic_msgs::DiagnosticStatus status(const std::string& topic);
 };
 }  // namespace gpu_planning_scene::core

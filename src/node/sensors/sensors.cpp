@@ -65,6 +65,10 @@ Sensors::Sensors(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneS
         sensor_options.camera_info_topic, 1,
         [this, &sensor](const sensor_msgs::CameraInfo& info)
         {
+          {
+            const std::lock_guard<std::mutex> lock(waiting_mutex_);
+            sensor.camera.reset();  // the images to come do not fit an older message
+          }
           const PinholeCamera camera = cameraOf(info);
           const std::lock_guard<std::mutex> lock(waiting_mutex_);
           sensor.camera = camera;
@@ -76,6 +80,7 @@ Sensors::Sensors(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneS
   diagnostics_publisher_ = root.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10);
   diagnostics_timer_ = root.createWallTimer(
       ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { publishStatus(); });
+  store_.setOctomapFault([this] { return octomapFault(); });
   thread_ = std::thread([this] { run(); });
 }
 
@@ -95,6 +100,7 @@ void Sensors::stop()
   if (thread_.joinable())
     thread_.join();
   topics_.stop();
+  store_.setOctomapFault({});
 }
 
 void Sensors::receive(Sensor& sensor, Message message)
@@ -149,12 +155,13 @@ bool Sensors::take(Sensor& sensor)
     return false;
   const double waited = (ros::SteadyTime::now() - sensor.current->received).toSec();
   bool waits = false;
+  std::string loss;
   const Fault fault = faultOf(
       [&]
       {
         try
         {
-          use(sensor);
+          loss = use(sensor);
         }
         catch (const NotKnownYet&)
         {
@@ -167,18 +174,21 @@ bool Sensors::take(Sensor& sensor)
     return false;
   if (fault)
     topics_.refuse(sensor.options.topic, fault.message);
+  if (!loss.empty())
+    topics_.refuse(sensor.options.topic, loss);
   const std_msgs::Header header = headerOf(sensor.current->message);
   sensor.current.reset();
   const std::lock_guard<std::mutex> lock(waiting_mutex_);
   if (fault)
     sensor.record.reject(fault.message);
   else
-    sensor.record.use(header.stamp.isZero() ? 0.0 : ageOf(header));
+    sensor.record.use(header.stamp.isZero() ? 0.0 : ageOf(header), loss);
   return true;
 }
 
-/// Puts the current measurement of a sensor into the map, and the map into the scene.
-void Sensors::use(const Sensor& sensor)
+/// Puts the current measurement of a sensor into the map, and the map into the scene. Returns what is lost there, in one
+/// line, or an empty text.
+std::string Sensors::use(const Sensor& sensor)
 {
   memory_.require();
   const SensorOptions& options = sensor.options;
@@ -190,7 +200,7 @@ void Sensors::use(const Sensor& sensor)
     camera = sensor.camera;
   }
   if (options.sendsImages() && !camera)
-    throw Error("there is no message on " + options.camera_info_topic + " yet");
+    throw Error("there is no valid message on " + options.camera_info_topic + " yet");
   // When it came: a measurement that waits for tf grows older.
   const double waited = (ros::SteadyTime::now() - sensor.current->received).toSec();
   if (const double age = header.stamp.isZero() ? 0.0 : ageOf(header) - waited; age < -kLargestAdvance)
@@ -202,17 +212,22 @@ void Sensors::use(const Sensor& sensor)
   const MeasuredAt measured = measuredAt(header, store_, find_frame_);
   SensorView view;
   view.sensor = measured.sensor;
-  view.time = header.stamp.toSec();
+  view.time = header.stamp.isZero() ? ros::Time::now().toSec() - waited : header.stamp.toSec();
   view.received = sensor.current->received.toSec();
   view.min_range = options.min_range;
   view.max_range = options.max_range;
   view.padding = options.padding;
 
   const auto* image = std::get_if<sensor_msgs::Image>(&message);
-  if (image != nullptr)
-    map_.add(depthImageOf(*image, *camera), view, measured.state);
-  else
-    map_.add(pointsOf(std::get<sensor_msgs::PointCloud2>(message), options.step), view, measured.state);
+  const std::size_t without_room =
+      image != nullptr
+          ? map_.add(depthImageOf(*image, *camera), view, measured.state)
+          : map_.add(pointsOf(std::get<sensor_msgs::PointCloud2>(message), options.step), view, measured.state);
+  return without_room == 0
+             ? ""
+             : std::to_string(without_room) +
+                   " voxels are not in the scene, the farthest from the robot, because ~limits/voxels is reached; use "
+                   "larger voxels (~octomap_resolution), a shorter range or a region";
 }
 
 ExcludeFromSensors::Response Sensors::exclude(const ExcludeFromSensors::Request& request)
@@ -226,6 +241,16 @@ ExcludeFromSensors::Response Sensors::exclude(const ExcludeFromSensors::Request&
 Clear::Response Sensors::clear()
 {
   return respond<Clear::Response>([&](Clear::Response& response) { response.scene_revision = map_.clear(); });
+}
+
+/// The first sensor that has been silent for too long. Empty: there is none.
+std::string Sensors::octomapFault()
+{
+  const std::lock_guard<std::mutex> lock(waiting_mutex_);
+  for (const std::unique_ptr<Sensor>& sensor : sensors_)
+    if (std::string fault = sensor->record.outdated(sensor->options.topic, sensor->options.max_silence); !fault.empty())
+      return fault;
+  return "";
 }
 
 void Sensors::publishStatus()

@@ -24,7 +24,8 @@ namespace gpu_planning_scene::core
 /// Keeps the octomap of the scene (kOctomapId) from the measurements of depth cameras and scanners. One thread takes
 /// the newest measurement of each sensor in turn, beside the checks. A measurement that a newer one replaces before its
 /// turn is dropped and counted. A measurement whose frame tf does not know yet waits, and the other sensors go on.
-/// Publishes a status for each sensor on /diagnostics. Thread-safe.
+/// Publishes a status for each sensor on /diagnostics. While a sensor is silent for longer than
+/// SensorOptions::max_silence, snapshots of the store say so (Snapshot::octomap_fault). Thread-safe.
 class Sensors
 {
  public:
@@ -72,8 +73,9 @@ class Sensors
   void receive(Sensor& sensor, Message message);
   void run();
   bool take(Sensor& sensor);
-  void use(const Sensor& sensor);
+  std::string use(const Sensor& sensor);
   void publishStatus();
+  std::string octomapFault();
 
   SceneStore& store_;
   const SceneStore::Lookup find_frame_;

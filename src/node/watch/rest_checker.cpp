@@ -41,6 +41,17 @@ TimedRows restOf(const Snapshot& scene, const std::vector<Watched>& watched)
   return motionOfAll(robot, trajectories, delays, state, 0.0);
 }
 
+/// `first`, the first row of the rest, with the measured values of the robots that are followed and near their places.
+std::vector<double> measuredStart(const Snapshot& scene, const std::vector<Watched>& watched, const double* first)
+{
+  std::vector<double> here(first, first + scene.state.size());
+  for (const Watched& each : watched)
+    if (each.max_deviation > 0.0 && each.deviation <= each.max_deviation)
+      for (const int column : each.trajectory.columns)
+        here[static_cast<std::size_t>(column)] = scene.state[static_cast<std::size_t>(column)];
+  return here;
+}
+
 /// A message why nothing is proven although nothing is known to collide.
 std::string whyUnproven(const RobotModel& robot, const TimedRows& motion)
 {
@@ -97,6 +108,8 @@ void RestChecker::check(const Snapshot& scene, const std::vector<Watched>& watch
 {
   if (const std::string fault = scene.endedVariable(columnsOf(watched)); !fault.empty())
     throw Error(fault);
+  if (!scene.octomap_fault.empty())
+    throw Error(scene.octomap_fault);
   takeScene(scene.scene);
   const RobotModel& robot = *scene.scene->robot;
   const TimedRows rest = restOf(scene, watched);
@@ -120,11 +133,38 @@ void RestChecker::check(const Snapshot& scene, const std::vector<Watched>& watch
     if (with_contact)
       addContact(outlook, *scene.scene, state);
   }
+  if (state.verdict != WatchState::COLLISION)
+    checkStart(scene, watched, rest, is_over, state);
   age(std::max_element(watched.begin(), watched.end(), [](const Watched& a, const Watched& b) { return a.age < b.age; })
           ->age,
       state);
   markDeviation(watched, state);
   addWarning(scene.assumedBase(columnsOf(watched)), state.message);
+}
+
+/// The robot is not quite at its places on the trajectories, and may even have been pushed back, so its way to them
+/// counts too.
+void RestChecker::checkStart(const Snapshot& scene, const std::vector<Watched>& watched, const TimedRows& rest,
+                             const std::function<bool()>& is_over, WatchState& state) const
+{
+  const std::vector<double> here = measuredStart(scene, watched, rest.values.data());
+  const MotionChecker checker(checker_, scene.scene->robot, "", options_);
+  const MotionVerdict verdict = checker.check(here.data(), rest.values.data(), 1, MotionQuery::Valid, is_over).front();
+  if (verdict.valid)
+    return;
+  if (is_over())
+    throw Cancelled();
+  state.verdict = WatchState::NOT_PROVEN;
+  state.message = "the way from the robot's measured state to its place on the trajectory is not proven free";
+  state.free_for = 0.0;
+  state.collision_in = 0.0;
+  state.brake_in = -std::numeric_limits<double>::infinity();
+  if (verdict.colliding == kNoPair)
+    return;
+  state.verdict = WatchState::COLLISION;
+  state.message = "on the way from the robot's measured state to its place on the trajectory";
+  state.body_1 = scene.scene->bodyName(verdict.colliding[0]);
+  state.body_2 = scene.scene->bodyName(verdict.colliding[1]);
 }
 
 void RestChecker::addContact(const MotionOutlook& outlook, const PlanningScene& scene, WatchState& state) const

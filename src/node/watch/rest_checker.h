@@ -29,6 +29,8 @@ class RestChecker
 
  private:
   void takeScene(const std::shared_ptr<const PlanningScene>& scene);
+  void checkStart(const Snapshot& scene, const std::vector<Watched>& watched, const TimedRows& rest,
+                  const std::function<bool()>& is_over, WatchState& state) const;
   void addContact(const MotionOutlook& outlook, const PlanningScene& scene, WatchState& state) const;
 
   const MakeChecker make_checker_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/text/number_text.h"
 #include "collision/problem/state_validation.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
@@ -64,6 +65,22 @@ void requireSensible(const WatchTrajectory::Request& request, const ros::Time& n
     throw Error(
         "follow_joint_states needs max_deviation, for example 0.1: without it, a robot far beside its "
         "trajectory would count as being on it");
+}
+
+/// Seconds: of the oldest value of the trajectory's variables, since its stamp or its arrival. Infinite if a value was
+/// not measured.
+double ageOf(const WatchedTrajectory& trajectory, const Snapshot& scene, const ros::Time& now)
+{
+  double oldest = 0.0;
+  for (const int column : trajectory.columns)
+  {
+    const auto variable = static_cast<std::size_t>(column);
+    oldest = std::max(oldest, scene.ages[variable]);
+    // In doubles: times of ROS cannot be subtracted if they differ by more than 68 years.
+    if (const std::int64_t stamp = scene.stamps[variable]; stamp != 0)
+      oldest = std::max(oldest, now.toSec() - 1e-9 * static_cast<double>(stamp));
+  }
+  return oldest;
 }
 
 /// A controller moves from the current state to a first point that is later than the start.
@@ -138,15 +155,17 @@ void findPlace(const Snapshot& scene, const ros::Time& now, Watched& watched)
 {
   const WatchedTrajectory& trajectory = watched.trajectory;
   const RobotModel& robot = *scene.scene->robot;
-  double oldest = 0.0;
-  for (const int column : trajectory.columns)
-    oldest = std::max(oldest, scene.ages[static_cast<std::size_t>(column)]);
-  const bool is_measured = oldest <= kFresh;
+  const double age = ageOf(trajectory, scene, now);
+  const bool is_measured = age <= kFresh;
   if (!is_measured)
     watched.deviation = std::numeric_limits<double>::quiet_NaN();
   if (!is_measured && watched.max_deviation > 0.0)
-    throw Error("'" + watched.id + "': joint_states has brought no values of all its joints in the last " +
-                std::to_string(kFresh).substr(0, 4) + " s");
+    throw Error("'" + watched.id + "': joint_states has no values of all its joints of the last " +
+                std::to_string(kFresh).substr(0, 4) + " s" +
+                (std::isfinite(age) ? "; the oldest is " + numberText(age) +
+                                          " s old: look for a driver that has stopped or is late, or for clocks "
+                                          "that differ"
+                                    : ""));
 
   const double by_clock = watched.start.isZero() ? 0.0 : (now - watched.start).toSec();
   const double end = trajectory.rows.seconds.back();
@@ -158,7 +177,7 @@ void findPlace(const Snapshot& scene, const ros::Time& now, Watched& watched)
     const Progress progress = progressFrom(robot, trajectory, values, before);
     watched.time = progress.time;
     watched.deviation = progress.deviation;
-    watched.age = oldest;
+    watched.age = age;
     const std::size_t last_part = std::max<std::size_t>(trajectory.rows.seconds.size(), 2) - 2;
     watched.has_ended = by_clock >= end && progress.time >= trajectory.rows.seconds[last_part] &&
                         deviationAt(robot, trajectory, values, end) <= kArrived;
@@ -168,7 +187,8 @@ void findPlace(const Snapshot& scene, const ros::Time& now, Watched& watched)
     watched.time = by_clock;
     if (is_measured)
       watched.deviation = deviationAt(robot, trajectory, values, by_clock);
-    watched.has_ended = by_clock >= end;
+    // A robot that is still away from the last row moves on.
+    watched.has_ended = by_clock >= end && !(watched.max_deviation > 0.0 && watched.deviation > watched.max_deviation);
   }
   watched.looked_at = now;
 }

@@ -92,7 +92,7 @@ class Cell
 
   void expectTruth(OccupancyMap& map)
   {
-    const std::vector<PlacedShape> cubes = map.cubes(truth_, state_.data());
+    const std::vector<PlacedShape> cubes = map.cubes(truth_, state_.data()).cubes;
     EXPECT_FALSE(touchesRobot(truth_, state_, cubes));
     std::size_t invented = 0;
     for (const PlacedShape& cube : cubes)
@@ -208,7 +208,7 @@ class OccupancyMapOfACamera : public testing::Test
 
   bool isOccupied(OccupancyMap& map, const Vector3d& point)
   {
-    return distanceFromCubes(map.cubes(scene_, state_.data()), point) < 0.05;
+    return distanceFromCubes(map.cubes(scene_, state_.data()).cubes, point) < 0.05;
   }
 
   void placeTip(const Vector3d& place) { std::copy_n(place.data(), 3, state_.begin()); }
@@ -524,11 +524,11 @@ TEST_F(OccupancyMapOfACamera, TakesCloudsFromAllDirections)
   OccupancyMap map(options_);
   map.add(scaled(1.0F), view_, scene_, state_.data());
   const std::size_t inner = map.size();
-  for (const PlacedShape& cube : map.cubes(scene_, state_.data()))
+  for (const PlacedShape& cube : map.cubes(scene_, state_.data()).cubes)
     EXPECT_NEAR((cube.pose.translation() - view_.sensor.translation()).norm(), 1.0, 0.05 * std::sqrt(3.0) + 1e-6);
   map.add(scaled(2.0F), view_, scene_, state_.data());
   EXPECT_GT(map.size(), 3 * inner);
-  for (const PlacedShape& cube : map.cubes(scene_, state_.data()))
+  for (const PlacedShape& cube : map.cubes(scene_, state_.data()).cubes)
     EXPECT_NEAR((cube.pose.translation() - view_.sensor.translation()).norm(), 2.0, 0.05 * std::sqrt(3.0) + 1e-6)
         << "the voxels of the inner sphere are seen through";
 }
