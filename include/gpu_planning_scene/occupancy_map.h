@@ -46,12 +46,12 @@ struct SensorView
   Eigen::Isometry3d sensor = Eigen::Isometry3d::Identity();  ///< pose of the sensor's frame in the planning frame
   double time = 0.0;      ///< seconds: of the measurement, on the clock of the sensors
   double received = 0.0;  ///< seconds: of the arrival, on one clock that is never set back
-  /// Metres: along the optical axis for images, from the sensor for clouds. Nearer points are not used. Rays count up
-  /// to the maximum, and points behind it are not used.
+  /// Metres: along the optical axis for images, from the sensor for clouds. Nearer points are not used.
+  /// Points behind the maximum are not used, but their rays show that there is nothing up to the maximum.
   double min_range = 0.0;
   double max_range = 10.0;
-  /// Metres: points in voxels up to this distance from the robot or a left-out object may be points of its surface.
-  /// They are not used.
+  /// Metres: if a voxel is at most this far from the robot or a left-out object, its points are not used, because they
+  /// may be points of the surface of this body.
   double padding = 0.03;
 };
 
@@ -78,14 +78,13 @@ struct VoxelCubes
 /// does not need it.
 ///
 /// A measured point occupies its voxel at once. These points are not used: points outside the range or the region,
-/// points near the robot (SensorView::padding), and points at the border of an image if the centre of their voxel is
-/// outside the image.
+/// points near the robot (SensorView::padding), and points of an image in a voxel whose centre is outside the image.
 ///
 /// A measurement sees through a voxel if it has rays to the space behind the voxel, and no ray that ends at or before
-/// the voxel (see DepthView). Each such measurement takes one hit of the voxel back. A voxel keeps three hits at most,
-/// and without hits it is removed. So it is removed after three such measurements at the latest. A voxel that no sensor
-/// sees stays, for example one that the robot hides. A measurement that comes up to two seconds late takes no hit back
-/// that was measured after it.
+/// the voxel (see DepthView). Each voxel has a number from 1 to 3. A measurement with a point in the voxel
+/// adds 1, and a measurement that sees through it subtracts 1. At 0, the voxel is removed, so three measurements that
+/// see through it are enough. A voxel that no sensor sees stays, for example one that the robot hides. A measurement
+/// may come up to two seconds late. It does not lower a voxel in which a newer measurement has a point.
 ///
 /// A ray that is not measured may have met a body that the camera cannot measure. So the measurement does not see
 /// through a voxel near such a ray. A single pixel among measured ones does not count.

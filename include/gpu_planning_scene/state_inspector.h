@@ -24,7 +24,7 @@ struct Contact
   double depth = 0.0;      ///< metres, above 0; for padded pairs it includes the required distance
 };
 
-/// Clearance of a state, in metres beyond the required distance (see StateChecker).
+/// Clearance of a state, in metres: the smallest gap between two bodies minus the required distance (see StateChecker).
 struct Clearance
 {
   /// `world`: between the robot (with its attached objects) and the world objects. `self`: within the robot (with its
@@ -40,7 +40,7 @@ struct Clearance
 struct NearestPair
 {
   BodyPair bodies = kNoPair;  ///< body indices, ascending; kNoPair if no pair is checked
-  /// Metres beyond the required distance, as Clearance. In collision: minus the depth of the pair's contacts.
+  /// Metres: the gap minus the required distance, as Clearance. In collision: minus the depth of the pair's contacts.
   double distance = std::numeric_limits<double>::infinity();
   /// The nearest points of the two surfaces without padding, in the planning frame. In collision, both are the point of
   /// the deepest contact. Their distance is correct to 3e-6 m. NaN if no pair is checked.
@@ -58,7 +58,7 @@ struct NearestPairs
 /// Which distances are computed.
 struct DistanceQuery
 {
-  /// Metres beyond the required distance: pairs that are not nearer are left out. Infinity: no pair is left out.
+  /// Metres: pairs whose BodyDistance::distance is not below this are left out. Infinity: no pair is left out.
   double range = std::numeric_limits<double>::infinity();
   /// True: only the nearest pair of each link and attached object. It takes much less time than all pairs.
   bool nearest_of_each_body = false;
@@ -72,9 +72,9 @@ struct BodyDistance
 {
   BodyPair bodies;        ///< body indices; the first is a link or an attached object
   bool collides = false;  ///< by the exact checker
-  /// Metres beyond the required distance, as NearestPair::distance; a pair that is free may have 0. In collision: minus
-  /// the depth of the pair's deepest contact, which is the length of a translation that separates the bodies; a shorter
-  /// translation may exist.
+  /// Metres: the gap minus the required distance, as NearestPair::distance; a pair that is free may have 0. In
+  /// collision: minus the depth of the pair's deepest contact, which is the length of a translation that separates the
+  /// bodies; a shorter translation may exist.
   double distance;
   /// In collision: no translation shorter than this separates the bodies. 0: no such length is known.
   double depth_at_least = 0.0;
@@ -95,9 +95,9 @@ struct BodyDistances
   /// of the bodies.
   std::vector<BodyDistance> pairs;
   /// Row-major, one row per pair: the derivative of the distance by each variable, in metres per unit of the variable.
-  /// Where other points are as near, it is that of the points of the pair. In collision, it is that of the contact,
-  /// which moves with the bodies. The derivatives by the values of a quaternion are those before it is
-  /// normalised. A row without a normal is NaN. Empty unless the query has gradients.
+  /// It belongs to the points of the pair: if other points are equally near, these would give other derivatives. In
+  /// collision, it belongs to the contact, which moves with the bodies. The derivatives by the values of a quaternion
+  /// are those before it is normalised. A row without a normal is NaN. Empty unless the query has gradients.
   std::vector<double> gradients;
 };
 

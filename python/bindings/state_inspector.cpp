@@ -160,8 +160,9 @@ void addDistances(py::module_& module)
           "Whether the bodies collide. Shape (n,), bool.")
       .def_property_readonly(
           "distance", [](const py::object& self) { return ofPairs<double>(self, &BodyDistance::distance, {}); },
-          "Metres beyond the required distance, at most 1e-6 m below the true value and never above it; a pair that is "
-          "free may have 0. In collision: minus the depth of the deepest contact. Shape (n,).")
+          "Metres: the gap between the bodies minus the required distance, at most 1e-6 m below the true value and "
+          "never above it; a pair that is free may have 0. In collision: minus the depth of the deepest contact. "
+          "Shape (n,).")
       .def_property_readonly(
           "depth_at_least",
           [](const py::object& self) { return ofPairs<double>(self, &BodyDistance::depth_at_least, {}); },

@@ -44,11 +44,10 @@ struct Progress
 double deviationAt(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
                    double time);
 
-/// Where a robot is that was at the time `from` of its trajectory and has gone on since. The search follows the
-/// trajectory as long as its rows come nearer to `values` (those of its variables), and ends at the first row that is
-/// nearer than its neighbours. So it never takes a later row for the robot's place where a trajectory crosses itself or
-/// turns back; a robot that was lost for long has a large deviation instead. A part in which the trajectory stands has
-/// no length, and counts as passed.
+/// Where a robot is that was at the time `from` of its trajectory and has gone on since. The search starts at `from`,
+/// and goes forward along the trajectory as long as this brings it nearer to `values` (those of its variables). So it
+/// never takes a later row for the robot's place where a trajectory crosses itself or turns back; a robot that was lost
+/// for long has a large deviation instead. A part in which the trajectory stands has no length, and counts as passed.
 Progress progressFrom(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
                       double from);
 
@@ -69,9 +68,9 @@ struct MotionOutlook
   BodyPair colliding = kNoPair;  ///< a pair that collides then; kNoPair if the motion is only not proven free
   std::vector<double> state;     ///< the state at the time `collision`; empty if the motion is free
   /// The latest time at which the robot can begin to brake so that it stands at `free_until`. It brakes along the
-  /// motion: the rate falls evenly to 0, and no joint decelerates by more than Variable::max_acceleration (as in
-  /// timePath, 1 if there is no limit). Accelerations of the motion itself do not count. Infinity if the motion is
-  /// free. Before the first time of the motion, it is too late.
+  /// motion: the rate falls evenly to 0, and this decelerates no joint by more than Variable::max_acceleration (as in
+  /// timePath, 1 if there is no limit). A joint that the motion itself slows down decelerates by both together.
+  /// Infinity if the motion is free. Before the first time of the motion, it is too late.
   double brake_by = std::numeric_limits<double>::infinity();
 };
 

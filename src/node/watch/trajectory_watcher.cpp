@@ -216,9 +216,9 @@ void TrajectoryWatcher::carryOut(Order& order)
   for (const Watched& other : watched_)
     if (other.id != id && (other.follows || order.added->follows))
       throw Error("'" + (other.follows ? other.id : id) +
-                  "' follows joint_states, so no other trajectory can be watched beside it: where one robot is late, "
-                  "nothing is known about the place of both; watch several trajectories by the clock, with "
-                  "max_deviation");
+                  "' follows joint_states, so no other trajectory can be watched beside it: if one robot were "
+                  "late, the times at which both pass a place would not be known; watch several trajectories by the "
+                  "clock, with max_deviation");
   std::size_t rows = order.added->trajectory.rows.seconds.size();
   for (const Watched& other : watched_)
     rows += other.id == id ? 0 : other.trajectory.rows.seconds.size();
