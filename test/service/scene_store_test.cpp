@@ -312,7 +312,7 @@ TEST_F(Store, JointStatesChangeNoRevision)
   EXPECT_TRUE(store.snapshot().allKnown());
 }
 
-TEST_F(Store, TheStateAtAStampIsTheNearestOfTheLastSeconds)
+TEST_F(Store, TheStateAtAStampLiesBetweenTheValuesBeforeAndAfterIt)
 {
   constexpr std::int64_t kSecond = 1'000'000'000;
   EXPECT_EQ(store.snapshot().state, store.stateAt(5 * kSecond)) << "none has come yet";
@@ -324,13 +324,16 @@ TEST_F(Store, TheStateAtAStampIsTheNearestOfTheLastSeconds)
   EXPECT_THROW(store.stateAt(1), Error) << "no state is near";
   EXPECT_EQ(0.5, store.stateAt(4 * kSecond).at(0));
   EXPECT_EQ(0.5, store.stateAt(5 * kSecond).at(0));
-  EXPECT_EQ(0.5, store.stateAt(5 * kSecond + kSecond / 5).at(0));
-  EXPECT_EQ(0.625, store.stateAt(5 * kSecond + kSecond / 3).at(0));
-  EXPECT_EQ(0.75, store.stateAt(7 * kSecond).at(0));
+  EXPECT_DOUBLE_EQ(0.55, store.stateAt(5 * kSecond + kSecond / 5).at(0));
+  EXPECT_DOUBLE_EQ(0.7, store.stateAt(5 * kSecond + kSecond * 4 / 5).at(0));
+  EXPECT_EQ(0.75, store.stateAt(6 * kSecond).at(0));
+  EXPECT_THROW(store.stateAt(6 * kSecond + 1), NotKnownYet) << "it moves";
   EXPECT_THROW(store.stateAt(7 * kSecond + 1), Error) << "joint_states have ended";
+  store.updateState({{"slide", 0.7505}}, 6 * kSecond + 10'000'000);
+  EXPECT_EQ(0.7505, store.stateAt(7 * kSecond).at(0)) << "it stands";
   EXPECT_EQ(store.snapshot().state, store.stateAt(0));
   store.updateState({{"slide", 1.0}}, 16 * kSecond);
-  EXPECT_EQ(0.75, store.stateAt(7 * kSecond).at(0));
+  EXPECT_NEAR(0.775, store.stateAt(7 * kSecond).at(0), 1e-3);
   EXPECT_THROW(store.stateAt(10 * kSecond), Error) << "in a gap of joint_states";
   EXPECT_THROW(store.stateAt(5 * kSecond), Error) << "older than what is kept";
   store.updateState({{"slide", 0.125}}, 2 * kSecond);  // the clock was set back, as in a simulation
@@ -343,7 +346,7 @@ TEST_F(Store, TheStateAtAStampNeedsANearValueOfEachMeasuredVariable)
   store.updateState({{"slide", 0.25}}, 5 * kSecond);
   store.updateState({{"turn", 0.5}}, 5 * kSecond);
   store.updateState({{"turn", 0.75}}, 7 * kSecond);
-  EXPECT_EQ((std::vector<double>{0.25, 0.5}), store.stateAt(5 * kSecond + kSecond / 2));
+  EXPECT_EQ((std::vector<double>{0.25, 0.5625}), store.stateAt(5 * kSecond + kSecond / 2));
   try
   {
     store.stateAt(7 * kSecond);

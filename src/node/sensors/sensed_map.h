@@ -29,8 +29,8 @@ class SensedMap
   SensedMap& operator=(const SensedMap&) = delete;
 
   /// Puts a measurement into the map, and the map into the scene. `state`: one value per variable, of the time of the
-  /// measurement. Throws the errors of OccupancyMap::add and SceneStore::sense. Throws
-  /// Error if some voxels found no room; the others are in the scene then.
+  /// measurement. Returns the number of voxels that found no room, see OccupancyMap::add. Throws the errors of
+  /// OccupancyMap::add and SceneStore::sense.
   std::size_t add(const Measurement& measurement, const SensorView& view, const std::vector<double>& state);
 
   /// From now on, these objects are left out of the map, and no others. Their voxels are removed. Returns the revision

@@ -334,7 +334,7 @@ TEST_F(OccupancyMapOfACamera, ForgetsAfterTheDecayAndStaysInTheRegion)
   EXPECT_FALSE(isOccupied(map, {2.05, 0.05, 0.05})) << "not hit for 6 s";
 }
 
-TEST_F(OccupancyMapOfACamera, KeepsAVoxelThatTheRobotApproachesAndHidesItWhileTheRobotTouchesIt)
+TEST_F(OccupancyMapOfACamera, KeepsAVoxelThatTheRobotApproaches)
 {
   OccupancyMap map(options_);
   see(map, 4.05F, 2.05F);
@@ -342,10 +342,39 @@ TEST_F(OccupancyMapOfACamera, KeepsAVoxelThatTheRobotApproachesAndHidesItWhileTh
   see(map, 4.05F, 1.0F);
   EXPECT_TRUE(isOccupied(map, {2.05, 0.05, 0.05})) << "within the padding, but known before";
   EXPECT_FALSE(isOccupied(map, {1.05, 0.05, 0.05})) << "a point of the robot";
-  placeTip({1.6, 0.0, 0.0});
-  EXPECT_FALSE(isOccupied(map, {2.05, 0.05, 0.05})) << "the robot is there";
-  placeTip({100.0, 0.0, 0.0});
-  EXPECT_TRUE(isOccupied(map, {2.05, 0.05, 0.05})) << "the robot has left";
+}
+
+TEST_F(OccupancyMapOfACamera, KeepsThePartsOfAVoxelThatTheRobotDoesNotTouch)
+{
+  const auto collides = [this](const std::vector<PlacedShape>& cubes, double x)
+  {
+    placeTip({x, 0.0, 0.0});
+    return touchesRobot(scene_, state_, cubes);
+  };
+  const auto tip_at = [this](OccupancyMap& map, double x)
+  {
+    placeTip({x, 0.0, 0.0});
+    return map.cubes(scene_, state_.data());
+  };
+  OccupancyMap map(options_);
+  see(map, 4.05F, 2.05F);
+  const std::size_t whole = tip_at(map, 50.0).cubes.size();
+  EXPECT_TRUE(tip_at(map, 50.0).are_whole);
+  for (const double padding : {0.0, 0.01})
+  {
+    scene_.link_padding = {padding, padding};
+    const VoxelCubes touched = tip_at(map, 1.53);  // its front is at 2.03, and the voxels go from 2.0 to 2.1
+    EXPECT_FALSE(touched.are_whole);
+    EXPECT_FALSE(collides(touched.cubes, 1.53 + padding + 0.0009)) << "it is free of what is left by its padding";
+    EXPECT_TRUE(collides(touched.cubes, 1.53 + 0.0259)) << "further in, it meets what is left";
+    EXPECT_FALSE(collides(touched.cubes, 1.48)) << "it can leave";
+  }
+  scene_.link_padding.clear();
+  const VoxelCubes through = tip_at(map, 1.65);
+  EXPECT_FALSE(through.are_whole);
+  EXPECT_FALSE(collides(through.cubes, 1.65)) << "behind the voxels, nothing is left of them";
+  EXPECT_EQ(whole, tip_at(map, 50.0).cubes.size()) << "the robot has left";
+  EXPECT_EQ(whole, map.cubes(scene_, nullptr).cubes.size()) << "the robot's place is not known";
 }
 
 TEST_F(OccupancyMapOfACamera, LeavesOutNamedObjectsAndAnObjectThatIsAttached)

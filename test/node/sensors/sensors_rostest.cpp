@@ -23,6 +23,7 @@ namespace
 {
 using Eigen::Vector3d;
 
+constexpr double kResolution = 0.04;  // of sensors.yaml
 const PinholeCamera kCamera{160, 120, 140.0, 140.0, 79.5, 59.5};
 
 /// A depth camera and a scanner beside the robot.
@@ -149,13 +150,21 @@ class SensorsOfANode : public RunningNode
     return occupiedLeaves({map.octomap.id, map.octomap.binary != 0, map.octomap.resolution, map.octomap.data}, 1000000);
   }
 
-  /// The number of voxels whose centres are at most `distance` from a point.
+  /// The number of whole voxels whose centres are at most `distance` from a point.
   static std::size_t voxelsNear(const Vector3d& point, double distance)
   {
     std::size_t count = 0;
     for (const PlacedShape& cube : octomap())
-      count += (cube.pose.translation() - point).cwiseAbs().maxCoeff() <= distance ? 1 : 0;
+      if (std::abs(std::get<Box>(cube.shape).size.x() - kResolution) < 1e-9)
+        count += (cube.pose.translation() - point).cwiseAbs().maxCoeff() <= distance ? 1 : 0;
     return count;
+  }
+
+  void publishEmptyCloud()
+  {
+    sensor_msgs::PointCloud2 cloud = emptyCloud();
+    cloud.header.stamp = ros::Time::now();
+    clouds_.publish(cloud);
   }
 
   /// A value in the status of a sensor; empty before the first status.
@@ -339,6 +348,79 @@ TEST_F(SensorsOfANode, AVoxelThatTheRobotTouchedComesBackWithoutAMeasurement)
   const std::size_t others = voxelsNear(there, 0.15);
   move_to(free_state);
   EXPECT_TRUE(becomes([&] { return voxelsNear(there, 0.15) > others; }));
+}
+
+TEST_F(SensorsOfANode, AnAttachedObjectLosesTheVoxelsOfThePlaceWhereItWasAttached)
+{
+  // The part is attached while no image comes, and its carrier turns away before the next one.
+  std::vector<double> turned = free_state;
+  turned[0] += 1.2;
+  const Vector3d here = tipPoint() + Vector3d(0.0, 0.0, -0.35);
+  const Vector3d there = linkPose(tip, turned) * (linkPose(tip, free_state).inverse() * here);
+  const Vector3d outward = Vector3d(there.x(), there.y(), 0.0).normalized();
+  const auto see_from_both = [&](const Vector3d& thing)
+  {
+    look(thing + 1.2 * outward + Vector3d(0.0, 0.0, 0.5), thing);
+    return seesUntil([&] { return voxelsNear(thing, 0.09) > 0; });
+  };
+  addToTruth("part", here, 0.12);
+  addToTruth("shelf", there, 0.12);
+  ASSERT_TRUE(see_from_both(there));
+  ASSERT_TRUE(see_from_both(here));
+  ros::WallDuration(0.5).sleep();  // for the last image
+  PlanningSceneMessage grasp = diffWith(boxObject("part", here, 0.12));
+  apply(grasp);
+  AttachedCollisionObject attached;
+  attached.link_name = tip;
+  attached.object = objectOperation("part", CollisionObject::ADD);
+  PlanningSceneMessage attach = diffScene();
+  attach.robot_state.is_diff = 1U;
+  attach.robot_state.attached_collision_objects = {attached};
+  apply(attach);
+  PlanningSceneMessage move = diffScene();
+  move.robot_state.joint_state = stateMessage(turned).joint_state;
+  apply(move);
+  EXPECT_TRUE(becomes([&] { return voxelsNear(here, 0.09) == 0; })) << "without a measurement";
+  move.robot_state.joint_state = stateMessage(free_state).joint_state;
+  apply(move);
+  EXPECT_TRUE(becomes([&] { return voxelsNear(there, 0.09) > 0; })) << "the part was only carried past";
+}
+
+TEST_F(SensorsOfANode, ASilentSensorIsNamedInAnswersAndMakesAWatchUnknown)
+{
+  const auto both_see = [this](const auto& condition)
+  {
+    return seesUntil(
+        [&]
+        {
+          publishEmptyCloud();
+          return condition();
+        });
+  };
+  WatchTrajectory::Request request;
+  request.id = "stand";
+  request.joint_trajectory.joint_names = {stateRequest(free_state).joint_names.at(0)};
+  for (const double seconds : {0.0, 100.0})
+  {
+    trajectory_msgs::JointTrajectoryPoint point;
+    point.time_from_start = ros::Duration(seconds);
+    point.positions = {free_state[0]};
+    request.joint_trajectory.points.push_back(point);
+  }
+  const auto verdict = [&] { return call<WatchTrajectory>("watch_trajectory", request).state.verdict; };
+  EXPECT_TRUE(both_see([&] { return verdict() == WatchState::FREE && check(free_state).message.empty(); }));
+  ASSERT_TRUE(becomes(
+      [&]
+      {
+        see();  // only the scanner is silent
+        return verdict() == WatchState::UNKNOWN;
+      }));
+  const std::string reason = "the octomap may be out of date: no measurement of sensor /scanner/points was used for ";
+  EXPECT_EQ(0u, call<WatchTrajectory>("watch_trajectory", request).state.message.find(reason));
+  EXPECT_NE(std::string::npos, check(free_state).message.find(reason)) << check(free_state).message;
+  EXPECT_TRUE(both_see([&] { return verdict() == WatchState::FREE; }));
+  request.stop = true;
+  EXPECT_TRUE(call<WatchTrajectory>("watch_trajectory", request).success);
 }
 
 TEST_F(SensorsOfANode, CloudsOfAScannerAreInTheSameMap)

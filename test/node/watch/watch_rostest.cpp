@@ -52,6 +52,8 @@ class SimulatedRobot
   double cancelledUntil() const { return cancelled_until_; }
   /// Is added to the published values.
   std::atomic<double> error{0.0};
+  /// Seconds: the values are published so late.
+  std::atomic<double> delay{0.0};
 
   std::vector<double> stateAt(double time) const
   {
@@ -75,7 +77,7 @@ class SimulatedRobot
         time_ = std::min(time_ + kStep * rate, kSeconds);
       stands_ = rate == 0.0;
       sensor_msgs::JointState message;
-      message.header.stamp = ros::Time::now();
+      message.header.stamp = ros::Time::now() - ros::Duration(delay);
       message.name = names_;
       message.position = stateAt(time_);
       message.position[0] += error;
@@ -401,6 +403,62 @@ TEST_F(Watch, ATrajectoryThatHasEndedIsNotWatchedAnyMore)
   const auto stopped = stopWatching("short");
   EXPECT_FALSE(stopped.success);
   EXPECT_EQ(stopped.status, AnswerStatus::INVALID_REQUEST);
+}
+
+TEST_F(Watch, ARobotThatIsLateByTheClockStaysWatchedUntilItArrives)
+{
+  SimulatedRobot simulated(names(), free_state);
+  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
+  ros::WallDuration(0.3).sleep();
+  WatchTrajectory::Request request = trajectory("turn");
+  request.joint_trajectory.header.stamp = ros::Time::now() - ros::Duration(kSeconds + 0.5);
+  request.max_deviation = 0.1;
+  EXPECT_EQ(watch(request).state.verdict, WatchState::OFF_PATH) << "its time is over, and it has not begun to move";
+  ros::WallDuration(0.5).sleep();
+  EXPECT_EQ(last().ids, std::vector<std::string>{"turn"});
+  simulated.error = kRate * kSeconds;
+  ASSERT_TRUE(comes(WatchState::NONE));
+  EXPECT_EQ(last().ended, std::vector<std::string>{"turn"});
+}
+
+TEST_F(Watch, TheWayBackOfARobotThatWasPushedBackCounts)
+{
+  SimulatedRobot simulated(names(), free_state);
+  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
+  ros::WallDuration(0.3).sleep();
+  WatchTrajectory::Request request = trajectory("turn");
+  request.follow_joint_states = true;
+  request.max_deviation = 0.6;
+  ASSERT_EQ(watch(request).state.verdict, WatchState::FREE) << last().message;
+  const double place = kRate * 3.0;
+  simulated.error = place;  // as if it had moved there
+  ASSERT_TRUE(becomes([&] { return last().free_for < 3.5; }));
+  apply(diffWith(boxAtTip(turned(1.8))));
+  ros::WallDuration(0.3).sleep();
+  EXPECT_EQ(last().verdict, WatchState::FREE) << "the box is behind it";
+  simulated.error = kRate * 0.7;
+  ASSERT_TRUE(comes(WatchState::COLLISION));
+  EXPECT_EQ(last().body_2, "box");
+  EXPECT_EQ(last().free_for, 0.0);
+  simulated.error = place;
+  EXPECT_TRUE(comes(WatchState::FREE));
+  apply(diffWith(objectOperation("box", CollisionObject::REMOVE)));
+}
+
+TEST_F(Watch, ValuesWithOldStampsAreNotMeasuredNow)
+{
+  SimulatedRobot simulated(names(), free_state);
+  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
+  ros::WallDuration(0.3).sleep();
+  WatchTrajectory::Request request = trajectory("turn");
+  request.follow_joint_states = true;
+  request.max_deviation = 0.1;
+  ASSERT_EQ(watch(request).state.verdict, WatchState::FREE) << last().message;
+  simulated.delay = 0.5;
+  ASSERT_TRUE(comes(WatchState::UNKNOWN));
+  EXPECT_NE(last().message.find("late"), std::string::npos) << last().message;
+  simulated.delay = 0.0;
+  EXPECT_TRUE(comes(WatchState::FREE));
 }
 
 TEST_F(Watch, ARobotBesideItsTrajectoryIsNotFree)
