@@ -350,42 +350,6 @@ TEST_F(SensorsOfANode, AVoxelThatTheRobotTouchedComesBackWithoutAMeasurement)
   EXPECT_TRUE(becomes([&] { return voxelsNear(there, 0.15) > others; }));
 }
 
-TEST_F(SensorsOfANode, AnAttachedObjectLosesTheVoxelsOfThePlaceWhereItWasAttached)
-{
-  // The part is attached while no image comes, and its carrier turns away before the next one.
-  std::vector<double> turned = free_state;
-  turned[0] += 1.2;
-  const Vector3d here = tipPoint() + Vector3d(0.0, 0.0, -0.35);
-  const Vector3d there = linkPose(tip, turned) * (linkPose(tip, free_state).inverse() * here);
-  const Vector3d outward = Vector3d(there.x(), there.y(), 0.0).normalized();
-  const auto see_from_both = [&](const Vector3d& thing)
-  {
-    look(thing + 1.2 * outward + Vector3d(0.0, 0.0, 0.5), thing);
-    return seesUntil([&] { return voxelsNear(thing, 0.09) > 0; });
-  };
-  addToTruth("part", here, 0.12);
-  addToTruth("shelf", there, 0.12);
-  ASSERT_TRUE(see_from_both(there));
-  ASSERT_TRUE(see_from_both(here));
-  ros::WallDuration(0.5).sleep();  // for the last image
-  PlanningSceneMessage grasp = diffWith(boxObject("part", here, 0.12));
-  apply(grasp);
-  AttachedCollisionObject attached;
-  attached.link_name = tip;
-  attached.object = objectOperation("part", CollisionObject::ADD);
-  PlanningSceneMessage attach = diffScene();
-  attach.robot_state.is_diff = 1U;
-  attach.robot_state.attached_collision_objects = {attached};
-  apply(attach);
-  PlanningSceneMessage move = diffScene();
-  move.robot_state.joint_state = stateMessage(turned).joint_state;
-  apply(move);
-  EXPECT_TRUE(becomes([&] { return voxelsNear(here, 0.09) == 0; })) << "without a measurement";
-  move.robot_state.joint_state = stateMessage(free_state).joint_state;
-  apply(move);
-  EXPECT_TRUE(becomes([&] { return voxelsNear(there, 0.09) > 0; })) << "the part was only carried past";
-}
-
 TEST_F(SensorsOfANode, ASilentSensorIsNamedInAnswersAndMakesAWatchUnknown)
 {
   const auto both_see = [this](const auto& condition)
