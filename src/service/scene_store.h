@@ -35,7 +35,8 @@ struct Snapshot
   std::vector<bool> known;    ///< one per variable; an unknown variable has its default value, or that of `base`
   std::vector<double> ages;   ///< one per variable: seconds since SceneStore::updateState has set it; else infinity
   AssumedBase base = {};
-  /// Why the octomap may not be that of now, in one line (SceneStore::setOctomapFault). Empty: nothing is wrong with it.
+  /// Why the octomap may not be that of now, in one line (SceneStore::setOctomapFault). Empty: nothing is wrong with
+  /// it.
   std::string octomap_fault = {};
   /// The oldest stamp (nanoseconds) of the known values; 0: a known value has no stamp, or no value is known.
   std::int64_t stamp = 0;
@@ -95,8 +96,8 @@ class SceneStore
 
   /// From now on, only sense() changes the octomap of the scene: apply() and clear() leave it, see keepingOctomap.
   void reserveOctomap() { octomap_is_sensed_ = true; }
-  /// `find`: returns Snapshot::octomap_fault. It is called for each snapshot; it must be thread-safe, must not wait, and
-  /// must not use the store. An empty function ends this, and is waited for.
+  /// `find`: returns Snapshot::octomap_fault. It is called for each snapshot; it must be thread-safe, must not wait,
+  /// and must not use the store. An empty function ends this, and is waited for.
   void setOctomapFault(std::function<std::string()> find);
   /// As apply(), for a change by sensors, which needs no frames.
   Applied sense(const SceneChange& change) { return make(change, {}, false); }

@@ -78,8 +78,7 @@ double StateHistory::valueAt(const Values& values, std::int64_t stamp)
     throw Error("the robot's state of " + std::to_string((by_stamp.back().stamp - stamp) / 1'000'000'000) +
                 " s ago is not available; the last " + std::to_string(kKept / 1'000'000'000) + " s are kept");
   const bool before_is_nearer =
-      after == by_stamp.end() ||
-      (after != by_stamp.begin() && after->stamp - stamp >= stamp - std::prev(after)->stamp);
+      after == by_stamp.end() || (after != by_stamp.begin() && after->stamp - stamp >= stamp - std::prev(after)->stamp);
   const Stamped& nearest = before_is_nearer ? *std::prev(after) : *after;
   if (const std::int64_t difference = std::abs(nearest.stamp - stamp); difference > kNear)
     throw Error("the nearest known value of '" + values.name + "' is " +
@@ -96,10 +95,9 @@ double StateHistory::valueAt(const Values& values, std::int64_t stamp)
   if (after == by_stamp.begin() || after->stamp == stamp || values.kind == Kind::Quaternion)
     return nearest.value;
   const Stamped& before = *std::prev(after);
-  const double share =
-      static_cast<double>(stamp - before.stamp) / static_cast<double>(after->stamp - before.stamp);
-  const double change = values.kind == Kind::Angle ? shortestAngularDistance(before.value, after->value)
-                                                   : after->value - before.value;
+  const double share = static_cast<double>(stamp - before.stamp) / static_cast<double>(after->stamp - before.stamp);
+  const double change =
+      values.kind == Kind::Angle ? shortestAngularDistance(before.value, after->value) : after->value - before.value;
   return before.value + share * change;
 }
 

@@ -21,7 +21,7 @@ struct SensorOptions
   double max_rate = 0.0;          ///< measurements per second: max_update_rate; 0: all
   /// Seconds without a used measurement, after which the octomap counts as out of date: max_silence; 0: never.
   double max_silence = 2.5;
-  std::size_t step = 1;           ///< every step-th point of a cloud is used: point_subsample
+  std::size_t step = 1;  ///< every step-th point of a cloud is used: point_subsample
 
   bool sendsImages() const { return !camera_info_topic.empty(); }
 };

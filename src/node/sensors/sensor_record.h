@@ -22,8 +22,8 @@ struct SensorRecord
   double lag = 0.0;          ///< seconds from the stamp of the last used measurement to the scene with it
   double longest_lag = 0.0;  ///< since the last call of status()
 
-  /// Counts a measurement that is in the scene. `its_lag`: seconds, see `lag`. `lost`: which voxels are not in the scene
-  /// although they were measured, in one line, or empty.
+  /// Counts a measurement that is in the scene. `its_lag`: seconds, see `lag`. `lost`: which voxels are not in the
+  /// scene although they were measured, in one line, or empty.
   void use(double its_lag, const std::string& lost);
   /// Counts a measurement that is not in the scene. `why`: one line.
   void reject(const std::string& why);

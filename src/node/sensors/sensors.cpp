@@ -186,8 +186,8 @@ bool Sensors::take(Sensor& sensor)
   return true;
 }
 
-/// Puts the current measurement of a sensor into the map, and the map into the scene. Returns what is lost there, in one
-/// line, or an empty text.
+/// Puts the current measurement of a sensor into the map, and the map into the scene. Returns what is lost there, in
+/// one line, or an empty text.
 std::string Sensors::use(const Sensor& sensor)
 {
   memory_.require();
