@@ -29,8 +29,9 @@ namespace
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-constexpr double kRate = 15.0;  // images per second
-constexpr int kFrames = 90;     // of a cycle of the robot and the obstacle
+constexpr double kRate = 15.0;   // images per second
+constexpr double kVoxel = 0.05;  // metres: ~octomap_resolution
+constexpr int kFrames = 90;      // of a cycle of the robot and the obstacle
 constexpr double kTwoPi = 6.283185307179586;
 constexpr std::size_t kKeptScenes = 400;  // each has thousands of voxels
 const PinholeCamera kCamera{640, 480, 525.0, 525.0, 319.5, 239.5};
@@ -237,7 +238,7 @@ class SensorsSoak : public RunningNode
     const std::vector<PlacedShape> cubes =
         occupiedLeaves({map.octomap.id, map.octomap.binary != 0, map.octomap.resolution, map.octomap.data}, 1000000);
     const int now = frame;
-    const double reach = (1.0 + 0.5 * std::sqrt(3.0)) * map.octomap.resolution;
+    const double reach = (1.0 + 0.5 * std::sqrt(3.0)) * kVoxel;
     for (const PlacedShape& cube : cubes)
     {
       double nearest = std::numeric_limits<double>::infinity();
