@@ -47,6 +47,7 @@ class SpeedLimiter:
         from gpu_planning_scene.srv import CheckStates, CheckStatesRequest
         from sensor_msgs.msg import JointState
         self.ros = rospy
+        self.command = JointState
         self.horizon = rospy.get_param("~horizon", 0.5)
         self.slow = rospy.get_param("~slow", 0.1)
         self.stop = rospy.get_param("~stop", 0.02)
@@ -64,6 +65,8 @@ class SpeedLimiter:
         self.limited = rospy.Publisher("limited_command", JointState, queue_size=1)
         rospy.Subscriber("joint_states", JointState, self.take_values, queue_size=10)
         rospy.Subscriber("command", JointState, self.take_command, queue_size=1)
+        self.checked = None  # the command that is checked now, and the steady time since when
+        rospy.Timer(rospy.Duration(OLDEST / 5), self.stop_while_waiting)
 
     def take_values(self, message):
         arrival = time.monotonic()  # the ROS clock of a simulation may go back
@@ -72,13 +75,26 @@ class SpeedLimiter:
 
     def take_command(self, message):
         """Publishes the command with scaled velocities."""
+        self.checked = message, time.monotonic()
         try:
             scale = self.scale(message)
         except Exception as error:  # whatever is wrong, the robot stops
             self.ros.logwarn_throttle(1, f"limit_speed.py: stopped: {error}")
             scale = 0.0
-        message.velocity = [scale * velocity if scale else 0.0 for velocity in message.velocity]
-        self.limited.publish(message)
+        self.checked = None
+        self.publish(message, scale)
+
+    def publish(self, message, scale):
+        velocity = [scale * velocity if scale else 0.0 for velocity in message.velocity]
+        self.limited.publish(self.command(header=message.header, name=message.name, position=message.position,
+                                          velocity=velocity, effort=message.effort))
+
+    def stop_while_waiting(self, _event):
+        """The call of a service has no time limit: a node that hangs must not leave the robot at its last velocity."""
+        checked = self.checked
+        if checked and time.monotonic() - checked[1] > OLDEST:
+            self.ros.logwarn_throttle(1, f"limit_speed.py: stopped: the node has not answered for {OLDEST} s")
+            self.publish(checked[0], 0.0)
 
     def joints_of_group(self):
         """The joints that ~group moves; none without a group."""

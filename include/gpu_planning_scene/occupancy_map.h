@@ -121,9 +121,9 @@ class OccupancyMap
 
   /// The occupied voxels as cubes in the planning frame. The robot in `state`, with its attached objects, does not
   /// touch them: a voxel that it touches is replaced by those of its parts, cubes of half and of a quarter of its edge,
-  /// that are free of the robot and its paddings by at least 1 mm. So the robot can leave such a voxel, and a motion
-  /// further into it collides with what is left of it. Null: nothing is known about the robot, and all voxels are
-  /// whole.
+  /// that are farther from the robot than its largest paddings by at least 1 mm. So the robot can leave such a voxel,
+  /// and a motion further into it collides with what is left of it. Null: nothing is known about the robot, and all
+  /// voxels are whole.
   VoxelCubes cubes(const PlanningScene& scene, const double* state);
 
   /// The number of occupied voxels.

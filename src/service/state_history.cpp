@@ -57,15 +57,19 @@ void StateHistory::add(std::size_t variable, double value, std::int64_t stamp)
   }
 }
 
-/// Whether the last two values differ.
+/// Whether the variable has moved within the last kFast.
 bool StateHistory::moves(const Values& values)
 {
-  const std::deque<Stamped>& by_stamp = values.by_stamp;
-  if (by_stamp.size() < 2)
-    return false;
-  const double from = by_stamp[by_stamp.size() - 2].value;
-  const double to = by_stamp.back().value;
-  return std::abs(values.kind == Kind::Angle ? shortestAngularDistance(from, to) : to - from) > kStands;
+  const Stamped& last = values.by_stamp.back();
+  for (auto other = values.by_stamp.rbegin() + 1; other != values.by_stamp.rend() && last.stamp - other->stamp <= kFast;
+       ++other)
+  {
+    const double change =
+        values.kind == Kind::Angle ? shortestAngularDistance(other->value, last.value) : last.value - other->value;
+    if (std::abs(change) > kStands)
+      return true;
+  }
+  return false;
 }
 
 /// `values` has at least one.

@@ -16,7 +16,9 @@ class StateHistory
  public:
   static constexpr std::int64_t kKept = 10'000'000'000;  ///< nanoseconds before the newest stamp of a variable
   static constexpr std::int64_t kNear = 1'000'000'000;   ///< nanoseconds: the largest difference of setAt()
-  static constexpr double kStands = 1e-3;  ///< radians or metres: a variable that changes by no more stands still
+  static constexpr std::int64_t kFast = 250'000'000;     ///< nanoseconds between the values of a fast driver, at most
+  /// Radians or metres: a variable that changes by no more within kFast stands still.
+  static constexpr double kStands = 1e-3;
 
   explicit StateHistory(const RobotModel& robot);
 
@@ -25,9 +27,10 @@ class StateHistory
   void add(std::size_t variable, double value, std::int64_t stamp);
 
   /// Sets each variable that has a history to its value at `stamp` (nanoseconds): on a straight line between the values
-  /// before and after it, and for a quaternion the nearest value. Throws NotKnownYet if a variable moves and has no
-  /// value at or after `stamp` yet. Throws Error if the nearest value is more than kNear away, or if `stamp` is before
-  /// all kept values and older ones were dropped.
+  /// before and after it, and for a quaternion the nearest value. Without a value after `stamp`, the last one counts if
+  /// the variable stands still, or if its driver is slow; otherwise throws NotKnownYet, because a later one soon comes.
+  /// Throws Error if the nearest value is more than kNear away, or if `stamp` is before all kept values and older ones
+  /// were dropped.
   void setAt(std::int64_t stamp, std::vector<double>& state) const;
 
  private:

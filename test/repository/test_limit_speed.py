@@ -67,8 +67,9 @@ class Node:
             get_param=lambda name, default: self.parameters.get(name, default), get_time=lambda: self.ros,
             wait_for_service=lambda name: None, ServiceProxy=lambda *_: self.check, Subscriber=mock.Mock(),
             Publisher=lambda *_, **__: types.SimpleNamespace(publish=lambda message: self.published.append(message)),
-            logwarn_throttle=lambda period, text: self.log.append(text))
-        modules = {"rospy": rospy, "sensor_msgs": mock.Mock(), "sensor_msgs.msg": mock.Mock(),
+            logwarn_throttle=lambda period, text: self.log.append(text), Duration=float, Timer=mock.Mock())
+        modules = {"rospy": rospy, "sensor_msgs": mock.Mock(),
+                   "sensor_msgs.msg": types.SimpleNamespace(JointState=types.SimpleNamespace),
                    "gpu_planning_scene": mock.Mock(), "gpu_planning_scene.srv": mock.Mock(),
                    "gpu_planning_scene.msg": types.SimpleNamespace(AnswerStatus=Node)}
         with mock.patch.dict(sys.modules, modules):
@@ -94,7 +95,8 @@ class Node:
     def command(self, *names):
         """The velocities that are published for a command of 1 rad/s, and what the log says."""
         self.log.clear()
-        self.limiter.take_command(types.SimpleNamespace(name=list(names), velocity=[1.0] * len(names)))
+        self.limiter.take_command(types.SimpleNamespace(header=None, name=list(names), position=[], effort=[],
+                                                        velocity=[1.0] * len(names)))
         return self.published[-1].velocity, " ".join(self.log)
 
 
@@ -127,6 +129,20 @@ class Stops(unittest.TestCase):
         self.assert_passes(*self.ARM)
         self.node.while_checked = lambda: answer_after(2.0)
         self.assert_stops(self.ARM, "the node has answered too late", "2.00 s old")
+
+    def test_a_robot_does_not_keep_its_last_velocity_while_a_node_hangs(self):
+        def hang():
+            for _ in range(4):
+                self.node.pass_time(0.1)
+                self.node.limiter.stop_while_waiting(None)
+            self.hung = [message.velocity for message in self.node.published]
+        self.node.send(self.ARM)
+        self.assert_passes(*self.ARM)
+        self.node.limiter.stop_while_waiting(None)
+        self.assertEqual(1, len(self.node.published), "no call waits")
+        self.node.while_checked = hang
+        self.assert_stops(self.ARM, "the node has not answered for 0.25 s")
+        self.assertEqual([[1.0, 1.0], [0.0, 0.0], [0.0, 0.0]], self.hung)
 
     def test_a_joint_outside_the_group_is_not_moved(self):
         self.node = Node(group="arm")

@@ -67,7 +67,7 @@ struct VoxelProjection
   VoxelInView view(const Vector3d& centre) const { return {to_camera * centre, extent, inner_radius}; }
 };
 
-/// The largest required distance between a voxel and a body of the robot, by their paddings.
+/// The largest required distance between a voxel and any body of the robot, by the largest paddings.
 double requiredDistance(const PlanningScene& scene)
 {
   double of_links = 0.0;

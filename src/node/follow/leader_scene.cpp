@@ -19,12 +19,19 @@ LeaderScene::LeaderScene(const ros::NodeHandle& node, ros::NodeHandle& timers, c
                          std::uint64_t setup, SceneStore& store, SceneServices& changes)
   : SceneFollower(node, timers, options), setup_(setup), store_(store), changes_(changes)
 {
+  store_.setOctomapFault(
+      [this]
+      {
+        const std::lock_guard<std::mutex> lock(octomap_mutex_);
+        return octomap_fault_;
+      });
   start();
 }
 
 LeaderScene::~LeaderScene()
 {
   stop();
+  store_.setOctomapFault({});
 }
 
 std::string LeaderScene::changeFault() const
@@ -45,6 +52,7 @@ void LeaderScene::take(const GetPlanningScene::Response& answer)
 {
   if (!answer.success)
     throw Error(options().service + " answers: " + answer.message);
+  takeOctomapFault(answer.scene);
   if (!isCurrent())
   {
     takeWhole(answer.scene);
@@ -60,11 +68,18 @@ void LeaderScene::take(const GetPlanningScene::Response& answer)
   leader_revision_ = answer.scene.scene_revision;
 }
 
+void LeaderScene::takeOctomapFault(const PlanningSceneMessage& message)
+{
+  const std::lock_guard<std::mutex> lock(octomap_mutex_);
+  octomap_fault_ = message.octomap_fault;
+}
+
 void LeaderScene::apply(const PlanningSceneMessage& message)
 {
   const std::uint64_t revision = store_.snapshot().scene->revision;
   if (message.scene_revision <= revision)
     return;  // sent before the whole scene was fetched
+  takeOctomapFault(message);
   SceneChange change = changeOf(message);
   if (change.is_diff && message.previous_revision != revision)
     throw Error("the differences from revision " + std::to_string(revision) + " to " +

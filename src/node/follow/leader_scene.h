@@ -1,5 +1,6 @@
 #pragma once
 
+#include <mutex>
 #include <string>
 
 #include "node/follow/scene_follower.h"
@@ -34,10 +35,13 @@ class LeaderScene : private SceneFollower<PlanningSceneMessage, GetPlanningScene
   void apply(const PlanningSceneMessage& message) override;
   SceneChange changeOf(const PlanningSceneMessage& message) const;
   void takeWhole(const PlanningSceneMessage& whole);
+  void takeOctomapFault(const PlanningSceneMessage& message);
 
   const std::uint64_t setup_;
   SceneStore& store_;
   SceneServices& changes_;
   std::uint64_t leader_revision_ = 0;  // at the last comparison; used by the thread only
+  std::mutex octomap_mutex_;           // guards the next member
+  std::string octomap_fault_;          // of the leader
 };
 }  // namespace gpu_planning_scene::core

@@ -50,6 +50,7 @@ void ScenePublisher::changed(const std::shared_ptr<const PlanningScene>& before,
     message.scene_revision = after->revision;
     message.previous_revision = before->revision;
     message.setup = setup_;
+    message.octomap_fault = now.octomap_fault;
     keepExactNumbers(change, *after->robot, message);
     diffs_.publish(message);
   }

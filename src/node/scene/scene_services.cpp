@@ -113,6 +113,7 @@ GetPlanningScene::Response SceneServices::get(const GetPlanningScene::Request& r
   const SceneChange change = componentsOf(*now.scene, request.components.components, now.state, now.known);
   response.scene = messageOf(change, *now.scene->robot);
   response.scene.scene_revision = now.scene->revision;
+  response.scene.octomap_fault = now.octomap_fault;
   if ((request.components.components & kForFollowers) != 0)
   {
     response.scene.setup = setup_;

@@ -6,6 +6,7 @@
 
 #include <ros/console.h>
 
+#include "base/text/name_list.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/octomap.h"
 #include "node/endpoints/respond.h"
@@ -89,11 +90,18 @@ void SensedMap::republish()
 /// carried away from its voxels.
 void SensedMap::noteAttached(const PlanningScene& before, const std::shared_ptr<const PlanningScene>& after)
 {
-  if (std::set<std::string> ids = difference(attachedIds(*after), attachedIds(before)); !ids.empty())
+  std::set<std::string> ids = difference(attachedIds(*after), attachedIds(before));
+  if (ids.empty())
+    return;
+  Snapshot now = store_.snapshot();
+  if (!now.allKnown())
   {
-    const std::lock_guard<std::mutex> lock(attached_mutex_);
-    attached_.push_back({std::move(ids), after, store_.snapshot().state});
+    ROS_WARN_STREAM("the robot's state is not known, so the octomap keeps the voxels of attached objects: "
+                    << nameList({ids.begin(), ids.end()}));
+    return;
   }
+  const std::lock_guard<std::mutex> lock(attached_mutex_);
+  attached_.push_back({std::move(ids), after, std::move(now.state)});
 }
 
 /// Objects that were attached since the last call lose the voxels of the place where they were then, and ids of removed
@@ -103,7 +111,9 @@ bool SensedMap::followObjects()
   bool has_followed = false;
   for (std::optional<Attached> next = takeAttached(); next; next = takeAttached())
   {
-    map_.removeNear(next->ids, padding_, *next->scene, next->state.data());
+    const std::string error = errorOf([&] { map_.removeNear(next->ids, padding_, *next->scene, next->state.data()); });
+    if (!error.empty())
+      ROS_ERROR_STREAM("the octomap keeps the voxels of attached objects: " << error);
     has_followed = true;
   }
   const std::shared_ptr<const PlanningScene> scene = store_.snapshot().scene;

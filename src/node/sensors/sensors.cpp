@@ -6,6 +6,7 @@
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 
+#include "base/finally.h"
 #include "base/text/number_text.h"
 #include "node/endpoints/respond.h"
 #include "node/messages/sensor_messages.h"
@@ -65,13 +66,14 @@ Sensors::Sensors(const ros::NodeHandle& node, const ros::NodeHandle& own, SceneS
         sensor_options.camera_info_topic, 1,
         [this, &sensor](const sensor_msgs::CameraInfo& info)
         {
-          {
-            const std::lock_guard<std::mutex> lock(waiting_mutex_);
-            sensor.camera.reset();  // the images to come do not fit an older message
-          }
-          const PinholeCamera camera = cameraOf(info);
-          const std::lock_guard<std::mutex> lock(waiting_mutex_);
-          sensor.camera = camera;
+          std::optional<PinholeCamera> camera;
+          const Finally take(
+              [&]
+              {
+                const std::lock_guard<std::mutex> lock(waiting_mutex_);
+                sensor.camera = camera;  // none after an error: images do not fit an older message
+              });
+          camera = cameraOf(info);
         });
     topics_.subscribe<sensor_msgs::Image>(sensor_options.topic, 1,
                                           [this, &sensor](const sensor_msgs::Image& image) { receive(sensor, image); });
@@ -121,12 +123,17 @@ void Sensors::receive(Sensor& sensor, Message message)
 /// The method of the thread: takes the sensors in turn.
 void Sensors::run()
 {
+  ros::SteadyTime republished = ros::SteadyTime::now();
   while (true)
   {
     bool all_wait = true;
     for (const std::unique_ptr<Sensor>& sensor : sensors_)
       all_wait = !take(*sensor) && all_wait;
-    map_.republish();
+    if (const ros::SteadyTime now = ros::SteadyTime::now(); (now - republished).toSec() >= kRepublish.count() * 1e-3)
+    {
+      map_.republish();
+      republished = now;
+    }
     std::unique_lock<std::mutex> lock(waiting_mutex_);
     const bool has_current =
         std::any_of(sensors_.begin(), sensors_.end(), [](const auto& sensor) { return sensor->current.has_value(); });

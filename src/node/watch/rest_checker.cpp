@@ -133,8 +133,7 @@ void RestChecker::check(const Snapshot& scene, const std::vector<Watched>& watch
     if (with_contact)
       addContact(outlook, *scene.scene, state);
   }
-  if (state.verdict != WatchState::COLLISION)
-    checkStart(scene, watched, rest, is_over, state);
+  checkStart(scene, watched, rest, is_over, state);
   age(std::max_element(watched.begin(), watched.end(), [](const Watched& a, const Watched& b) { return a.age < b.age; })
           ->age,
       state);
@@ -147,24 +146,33 @@ void RestChecker::check(const Snapshot& scene, const std::vector<Watched>& watch
 void RestChecker::checkStart(const Snapshot& scene, const std::vector<Watched>& watched, const TimedRows& rest,
                              const std::function<bool()>& is_over, WatchState& state) const
 {
-  const std::vector<double> here = measuredStart(scene, watched, rest.values.data());
-  const MotionChecker checker(checker_, scene.scene->robot, "", options_);
-  const MotionVerdict verdict = checker.check(here.data(), rest.values.data(), 1, MotionQuery::Valid, is_over).front();
+  const RobotModel& robot = *scene.scene->robot;
+  const double* const place = rest.values.data();
+  const std::vector<double> here = measuredStart(scene, watched, place);
+  if (std::equal(here.begin(), here.end(), place))
+    return;
+  MotionCheckerOptions options = options_;
+  // Nothing is proven beyond the limits, and a measured value may be a little beyond them.
+  if (!beyondLimits(robot, here.data(), 1, [](std::size_t) { return std::string(); }).empty())
+    options.rule = MotionRule::Samples;
+  const MotionVerdict verdict = MotionChecker(checker_, scene.scene->robot, "", options)
+                                    .check(here.data(), place, 1, MotionQuery::Valid, is_over)
+                                    .front();
   if (verdict.valid)
     return;
   if (is_over())
     throw Cancelled();
-  state.verdict = WatchState::NOT_PROVEN;
-  state.message = "the way from the robot's measured state to its place on the trajectory is not proven free";
   state.free_for = 0.0;
   state.collision_in = 0.0;
   state.brake_in = -std::numeric_limits<double>::infinity();
-  if (verdict.colliding == kNoPair)
-    return;
-  state.verdict = WatchState::COLLISION;
-  state.message = "on the way from the robot's measured state to its place on the trajectory";
-  state.body_1 = scene.scene->bodyName(verdict.colliding[0]);
-  state.body_2 = scene.scene->bodyName(verdict.colliding[1]);
+  state.contacts.clear();
+  const bool collides = verdict.colliding != kNoPair;
+  state.verdict = collides ? WatchState::COLLISION : WatchState::NOT_PROVEN;
+  state.message =
+      std::string("the way from the robot's measured state to its place on the trajectory ") +
+      (collides ? "collides" : "is not proven free: bodies almost touch, or the proof needs too many checks");
+  state.body_1 = collides ? scene.scene->bodyName(verdict.colliding[0]) : "";
+  state.body_2 = collides ? scene.scene->bodyName(verdict.colliding[1]) : "";
 }
 
 void RestChecker::addContact(const MotionOutlook& outlook, const PlanningScene& scene, WatchState& state) const

@@ -19,6 +19,8 @@ namespace
 {
 constexpr double kFresh = 0.25;     // seconds: values of joint_states count up to this age
 constexpr double kArrived = 0.01;   // radians or metres: a robot this near to the last row has reached it
+constexpr double kStands = 1e-3;    // radians or metres: a robot that moves by no more stands
+constexpr double kStopped = 1.0;    // seconds: a robot that stands for so long has stopped
 constexpr double kAtRequest = 0.5;  // seconds: a start this near to the request is that of the current state
 
 std::vector<double> timesOf(const WatchTrajectory::Request& request)
@@ -81,6 +83,19 @@ double ageOf(const WatchedTrajectory& trajectory, const Snapshot& scene, const r
       oldest = std::max(oldest, now.toSec() - 1e-9 * static_cast<double>(stamp));
   }
   return oldest;
+}
+
+/// Seconds since when the robot stands, by its measured values.
+double standsFor(const std::vector<double>& values, const ros::Time& now, Watched& watched)
+{
+  const auto is_near = [](double a, double b) { return std::abs(a - b) <= kStands; };
+  if (watched.stood_at.empty() || now < watched.stands_since ||
+      !std::equal(values.begin(), values.end(), watched.stood_at.begin(), is_near))
+  {
+    watched.stood_at = values;
+    watched.stands_since = now;
+  }
+  return (now - watched.stands_since).toSec();
 }
 
 /// A controller moves from the current state to a first point that is later than the start.
@@ -187,8 +202,9 @@ void findPlace(const Snapshot& scene, const ros::Time& now, Watched& watched)
     watched.time = by_clock;
     if (is_measured)
       watched.deviation = deviationAt(robot, trajectory, values, by_clock);
-    // A robot that is still away from the last row moves on.
-    watched.has_ended = by_clock >= end && !(watched.max_deviation > 0.0 && watched.deviation > watched.max_deviation);
+    // A robot that is still away from the last row moves on, unless its goal was cancelled.
+    const bool is_late = watched.max_deviation > 0.0 && watched.deviation > watched.max_deviation;
+    watched.has_ended = by_clock >= end && (!is_late || standsFor(values, now, watched) >= kStopped);
   }
   watched.looked_at = now;
 }

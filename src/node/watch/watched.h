@@ -28,7 +28,9 @@ struct Watched
   double deviation = std::numeric_limits<double>::quiet_NaN();
   double age = 0.0;  ///< seconds: of the values from which the place comes; 0: it comes from the clock
   bool has_ended = false;
-  ros::Time looked_at;  ///< when the place was found
+  ros::Time looked_at;                ///< when the place was found
+  std::vector<double> stood_at = {};  ///< measured values of its variables from which the robot has hardly moved
+  ros::Time stands_since;             ///< when it was there first
 };
 
 /// Reads a request. `now`: the ROS clock. The publisher is not set. `warnings` gets warnings about the trajectory.

@@ -51,8 +51,8 @@ class SensedMapOfAScanner : public testing::Test
     part.link = "tip";
     part.object.id = "part";
     part.object.pose = Eigen::Isometry3d::Identity();
-    part.object.frame.name = "base";
-    part.object.shapes = {{Box{Vector3d(0.2, 2.0, 1.0)}, Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0))}};
+    part.object.frame.name = "tip";  // which is at 100
+    part.object.shapes = {{Box{Vector3d(0.2, 2.0, 1.0)}, Eigen::Isometry3d(Eigen::Translation3d(x - 100.0, 0.0, 0.0))}};
     store_.apply(change, [](const StampedFrame&) { return Eigen::Isometry3d::Identity(); });
   }
 
@@ -76,6 +76,15 @@ TEST_F(SensedMapOfAScanner, AnAttachedObjectLosesTheVoxelsOfThePlaceWhereItWasAt
   place(150.0);
   map_.republish();
   EXPECT_EQ(10u, voxelsAt(5.05)) << "the part was only carried past";
+}
+
+TEST_F(SensedMapOfAScanner, AnObjectThatIsAttachedToARobotInAnUnknownStateRemovesNoVoxels)
+{
+  EXPECT_THROW(place(std::numeric_limits<double>::quiet_NaN()), Error);
+  grasp(2.05);
+  place(100.0);
+  map_.republish();
+  EXPECT_EQ(10u, voxelsAt(2.05));
 }
 
 TEST_F(SensedMapOfAScanner, VoxelsAreWholeWhileTheRobotsPlaceIsNotKnown)

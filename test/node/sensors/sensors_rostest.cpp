@@ -45,11 +45,16 @@ class SensorsOfANode : public RunningNode
       statuses_(node_.subscribe<diagnostic_msgs::DiagnosticArray>(
           "/diagnostics", 10, [this](const diagnostic_msgs::DiagnosticArrayConstPtr& message) { take(*message); }))
   {
+    infos_.publish(cameraInfo());
+  }
+
+  static sensor_msgs::CameraInfo cameraInfo()
+  {
     sensor_msgs::CameraInfo info;
     info.width = static_cast<std::uint32_t>(kCamera.width);
     info.height = static_cast<std::uint32_t>(kCamera.height);
     info.K = {{kCamera.fx, 0.0, kCamera.cx, 0.0, kCamera.fy, kCamera.cy, 0.0, 0.0, 1.0}};
-    infos_.publish(info);
+    return info;
   }
 
   void SetUp() override
@@ -430,6 +435,20 @@ TEST_F(SensorsOfANode, WrongMeasurementsAreCountedAndChangeNothing)
       << "the camera is silent";
 }
 
+TEST_F(SensorsOfANode, AWrongCameraInfoIsNotReplacedByAnOlderOne)
+{
+  const std::string topic = "/camera/depth/image_rect";
+  ASSERT_TRUE(becomes([&] { return infos_.getNumSubscribers() > 0 && !statusOf(topic, "rejected").empty(); }));
+  sensor_msgs::CameraInfo second = cameraInfo();  // of a stereo pair
+  second.P = {{kCamera.fx, 0.0, kCamera.cx, -0.1 * kCamera.fx, 0.0, kCamera.fy, kCamera.cy, 0.0, 0.0, 0.0, 1.0, 0.0}};
+  infos_.publish(second);
+  const int before = std::stoi(statusOf(topic, "rejected"));
+  EXPECT_TRUE(seesUntil([&] { return std::stoi(statusOf(topic, "rejected")) > before + 1; }));
+  infos_.publish(cameraInfo());
+  const int used = std::stoi(statusOf(topic, "used"));
+  EXPECT_TRUE(seesUntil([&] { return std::stoi(statusOf(topic, "used")) > used; }));
+}
+
 TEST_F(SensorsOfANode, NoStampEndsTheNode)
 {
   const std::string topic = "/camera/depth/image_rect";
@@ -552,7 +571,13 @@ TEST_F(SensorParameters, AreThoseOfMoveItsFile)
   EXPECT_EQ(5.0, options_.sensors[0].max_range);
   EXPECT_EQ(0.04, options_.sensors[0].padding);
   EXPECT_EQ(1.0, options_.sensors[0].max_rate);
-  ASSERT_EQ(1u, warnings_.size());
+  EXPECT_EQ(3.0, options_.sensors[0].max_silence) << "three periods";
+  sensor["max_silence"] = 0.5;
+  EXPECT_EQ("", errorWith(sensor));
+  EXPECT_EQ(0.5, options_.sensors[0].max_silence);
+  EXPECT_EQ("", errorWith(camera()));
+  EXPECT_EQ(2.5, options_.sensors[0].max_silence);
+  ASSERT_EQ(2u, warnings_.size());
   EXPECT_NE(std::string::npos, warnings_[0].find("these keys have no effect: padding_scale")) << warnings_[0];
 }
 

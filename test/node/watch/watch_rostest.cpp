@@ -413,12 +413,27 @@ TEST_F(Watch, ARobotThatIsLateByTheClockStaysWatchedUntilItArrives)
   WatchTrajectory::Request request = trajectory("turn");
   request.joint_trajectory.header.stamp = ros::Time::now() - ros::Duration(kSeconds + 0.5);
   request.max_deviation = 0.1;
-  EXPECT_EQ(watch(request).state.verdict, WatchState::OFF_PATH) << "its time is over, and it has not begun to move";
-  ros::WallDuration(0.5).sleep();
+  simulated.go();
+  EXPECT_EQ(watch(request).state.verdict, WatchState::OFF_PATH) << "its time is over, and it begins to move";
+  ros::WallDuration(2.0).sleep();
   EXPECT_EQ(last().ids, std::vector<std::string>{"turn"});
-  simulated.error = kRate * kSeconds;
   ASSERT_TRUE(comes(WatchState::NONE));
   EXPECT_EQ(last().ended, std::vector<std::string>{"turn"});
+  EXPECT_GT(simulated.time(), kSeconds - 0.5) << "it has arrived";
+}
+
+TEST_F(Watch, ARobotThatHasStoppedOnItsWayIsNotWatchedAfterTheEndOfItsTrajectory)
+{
+  SimulatedRobot simulated(names(), free_state);
+  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
+  ros::WallDuration(0.3).sleep();
+  WatchTrajectory::Request request = trajectory("turn");
+  request.joint_trajectory.header.stamp = ros::Time::now() - ros::Duration(kSeconds + 0.5);
+  request.max_deviation = 0.1;
+  const ros::WallTime begin = ros::WallTime::now();
+  EXPECT_EQ(watch(request).state.verdict, WatchState::OFF_PATH);
+  ASSERT_TRUE(comes(WatchState::NONE));
+  EXPECT_GT((ros::WallTime::now() - begin).toSec(), 0.9);
 }
 
 TEST_F(Watch, TheWayBackOfARobotThatWasPushedBackCounts)
@@ -440,9 +455,34 @@ TEST_F(Watch, TheWayBackOfARobotThatWasPushedBackCounts)
   ASSERT_TRUE(comes(WatchState::COLLISION));
   EXPECT_EQ(last().body_2, "box");
   EXPECT_EQ(last().free_for, 0.0);
+  PlanningSceneMessage both = diffWith(boxAtTip(turned(5.5)));
+  both.world.collision_objects[0].id = "ahead";
+  apply(both);
+  ros::WallDuration(0.3).sleep();
+  EXPECT_EQ(last().body_2, "box") << "the first collision counts";
+  EXPECT_EQ(last().collision_in, 0.0);
+  EXPECT_LT(last().brake_in, 0.0);
+  apply(diffWith(objectOperation("ahead", CollisionObject::REMOVE)));
   simulated.error = place;
   EXPECT_TRUE(comes(WatchState::FREE));
   apply(diffWith(objectOperation("box", CollisionObject::REMOVE)));
+}
+
+TEST_F(Watch, AMeasuredValueALittleBeyondItsLimitIsNoFault)
+{
+  std::vector<double> state = free_state;
+  const auto grip = static_cast<std::size_t>(robot->variableIndex("grip"));
+  state[grip] = robot->variables()[grip].lower - 0.002;
+  SimulatedRobot simulated(names(), state);
+  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
+  ros::WallDuration(0.3).sleep();
+  WatchTrajectory::Request request = trajectory("turn");
+  request.joint_trajectory.joint_names.push_back("grip");
+  for (auto& point : request.joint_trajectory.points)
+    point.positions.push_back(robot->variables()[grip].lower);
+  request.follow_joint_states = true;
+  request.max_deviation = 0.05;
+  EXPECT_EQ(watch(request).state.verdict, WatchState::FREE) << last().message;
 }
 
 TEST_F(Watch, ValuesWithOldStampsAreNotMeasuredNow)
