@@ -114,6 +114,24 @@ TEST_F(Replicas, HaveTheSceneAndTheRevisionOfTheLeader)
   EXPECT_EQ(wholeScene(*leader), wholeScene(*replica));
 }
 
+TEST_F(Replicas, SayThatASensorOfTheLeaderIsSilent)
+{
+  XmlRpc::XmlRpcValue sensors;
+  sensors[0]["point_cloud_topic"] = "/silent/points";
+  sensors[0]["max_range"] = 2.0;
+  ros::param::set("/seeing/sensors", sensors);
+  const ChildNode seeing("seeing", {"_device:=cpu"});
+  const std::unique_ptr<ChildNode> listening = follower("listening", "/seeing");
+  for (const ChildNode* node : {&seeing, listening.get()})
+    EXPECT_TRUE(becomes(
+        [&]
+        {
+          const std::string message = checkWith(*node, stateRequest(free_state)).message;
+          return message.find("no measurement of sensor /silent/points was used yet") != std::string::npos;
+        }));
+  ros::param::del("/seeing/sensors");
+}
+
 TEST_F(Replicas, AnswerForTheRevisionThatARequestNames)
 {
   const std::uint64_t before = apply(diffWith(boxObject("box", farAway(), 0.2)));
