@@ -145,6 +145,24 @@ class Watch : public RunningNode
     return request;
   }
 
+  /// The trajectory "turn", which follows joint_states.
+  static WatchTrajectory::Request followed(double max_deviation)
+  {
+    WatchTrajectory::Request request = trajectory("turn");
+    request.follow_joint_states = true;
+    request.max_deviation = max_deviation;
+    return request;
+  }
+
+  /// Waits until the node has received the robot's values.
+  static bool isMeasured(const SimulatedRobot& simulated)
+  {
+    if (!becomes([&] { return simulated.isListenedTo(); }))
+      return false;
+    ros::WallDuration(0.3).sleep();
+    return true;
+  }
+
   static WatchTrajectory::Response watch(const WatchTrajectory::Request& request)
   {
     return call<WatchTrajectory>("watch_trajectory", request);
@@ -198,11 +216,8 @@ class Watch : public RunningNode
 TEST_F(Watch, TheRobotStopsBeforeABoxThatMovesIntoItsWay)
 {
   SimulatedRobot simulated(names(), free_state);
-  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
-  ros::WallDuration(0.3).sleep();
-  WatchTrajectory::Request request = trajectory("turn");
-  request.follow_joint_states = true;
-  request.max_deviation = 0.05;
+  ASSERT_TRUE(isMeasured(simulated));
+  WatchTrajectory::Request request = followed(0.05);
   request.cancel_action = "/simulation";
   const WatchTrajectory::Response first = watch(request);
   ASSERT_TRUE(first.success) << first.message;
@@ -408,8 +423,7 @@ TEST_F(Watch, ATrajectoryThatHasEndedIsNotWatchedAnyMore)
 TEST_F(Watch, ARobotThatIsLateByTheClockStaysWatchedUntilItArrives)
 {
   SimulatedRobot simulated(names(), free_state);
-  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
-  ros::WallDuration(0.3).sleep();
+  ASSERT_TRUE(isMeasured(simulated));
   WatchTrajectory::Request request = trajectory("turn");
   request.joint_trajectory.header.stamp = ros::Time::now() - ros::Duration(kSeconds + 0.5);
   request.max_deviation = 0.1;
@@ -425,8 +439,7 @@ TEST_F(Watch, ARobotThatIsLateByTheClockStaysWatchedUntilItArrives)
 TEST_F(Watch, ARobotThatHasStoppedOnItsWayIsNotWatchedAfterTheEndOfItsTrajectory)
 {
   SimulatedRobot simulated(names(), free_state);
-  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
-  ros::WallDuration(0.3).sleep();
+  ASSERT_TRUE(isMeasured(simulated));
   WatchTrajectory::Request request = trajectory("turn");
   request.joint_trajectory.header.stamp = ros::Time::now() - ros::Duration(kSeconds + 0.5);
   request.max_deviation = 0.1;
@@ -440,11 +453,8 @@ TEST_F(Watch, ARobotThatHasStoppedOnItsWayIsNotWatchedAfterTheEndOfItsTrajectory
 TEST_F(Watch, TheWayBackOfARobotThatWasPushedBackCounts)
 {
   SimulatedRobot simulated(names(), free_state);
-  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
-  ros::WallDuration(0.3).sleep();
-  WatchTrajectory::Request request = trajectory("turn");
-  request.follow_joint_states = true;
-  request.max_deviation = 0.6;
+  ASSERT_TRUE(isMeasured(simulated));
+  WatchTrajectory::Request request = followed(0.6);
   ASSERT_EQ(watch(request).state.verdict, WatchState::FREE) << last().message;
   const double place = kRate * 3.0;
   simulated.error = place;  // as if it had moved there
@@ -475,25 +485,19 @@ TEST_F(Watch, AMeasuredValueALittleBeyondItsLimitIsNoFault)
   const auto grip = static_cast<std::size_t>(robot->variableIndex("grip"));
   state[grip] = robot->variables()[grip].lower - 0.002;
   SimulatedRobot simulated(names(), state);
-  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
-  ros::WallDuration(0.3).sleep();
-  WatchTrajectory::Request request = trajectory("turn");
+  ASSERT_TRUE(isMeasured(simulated));
+  WatchTrajectory::Request request = followed(0.05);
   request.joint_trajectory.joint_names.push_back("grip");
   for (auto& point : request.joint_trajectory.points)
     point.positions.push_back(robot->variables()[grip].lower);
-  request.follow_joint_states = true;
-  request.max_deviation = 0.05;
   EXPECT_EQ(watch(request).state.verdict, WatchState::FREE) << last().message;
 }
 
 TEST_F(Watch, ValuesWithOldStampsAreNotMeasuredNow)
 {
   SimulatedRobot simulated(names(), free_state);
-  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
-  ros::WallDuration(0.3).sleep();
-  WatchTrajectory::Request request = trajectory("turn");
-  request.follow_joint_states = true;
-  request.max_deviation = 0.1;
+  ASSERT_TRUE(isMeasured(simulated));
+  WatchTrajectory::Request request = followed(0.1);
   ASSERT_EQ(watch(request).state.verdict, WatchState::FREE) << last().message;
   simulated.delay = 0.5;
   ASSERT_TRUE(comes(WatchState::UNKNOWN));
@@ -505,11 +509,8 @@ TEST_F(Watch, ValuesWithOldStampsAreNotMeasuredNow)
 TEST_F(Watch, ARobotBesideItsTrajectoryIsNotFree)
 {
   SimulatedRobot simulated(names(), free_state);
-  ASSERT_TRUE(becomes([&] { return simulated.isListenedTo(); }));
-  ros::WallDuration(0.3).sleep();
-  WatchTrajectory::Request request = trajectory("turn");
-  request.follow_joint_states = true;
-  request.max_deviation = 0.05;
+  ASSERT_TRUE(isMeasured(simulated));
+  WatchTrajectory::Request request = followed(0.05);
   ASSERT_EQ(watch(request).state.verdict, WatchState::FREE) << last().message;
   simulated.error = -0.2;
   ASSERT_TRUE(comes(WatchState::OFF_PATH));
@@ -522,9 +523,7 @@ TEST_F(Watch, ARobotBesideItsTrajectoryIsNotFree)
 TEST_F(Watch, ARobotThatIsNotMeasuredIsUnknown)
 {
   ros::WallDuration(1.2).sleep();  // values of earlier tests are older than a second
-  WatchTrajectory::Request request = trajectory("turn");
-  request.follow_joint_states = true;
-  request.max_deviation = 0.1;
+  WatchTrajectory::Request request = followed(0.1);
   const WatchTrajectory::Response response = watch(request);
   EXPECT_TRUE(response.success) << response.message;
   EXPECT_EQ(response.state.verdict, WatchState::UNKNOWN);
