@@ -39,7 +39,7 @@ class BundleTest(unittest.TestCase):
             [os.path.join(self.bundle, "run"), *arguments],
             capture_output=True,
             text=True,
-            timeout=120,
+            timeout=300,
             cwd="/",
             env={
                 "PATH": "/usr/bin:/bin",
@@ -99,7 +99,7 @@ class BundleTest(unittest.TestCase):
             [loader, "--library-path", libraries, os.path.join(self.bundle, "bin/benchmark"), "--help"],
             capture_output=True,
             text=True,
-            timeout=120,
+            timeout=300,
             env={"PATH": "/usr/bin:/bin", "ASAN_OPTIONS": "detect_leaks=0"},
         )
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -156,7 +156,7 @@ class BundleWithoutABuildTest(unittest.TestCase):
             [repository / "scripts/bundle", "--robots", folder, folder / "bundle"],
             capture_output=True,
             text=True,
-            timeout=60,
+            timeout=300,
             env={**os.environ, "BASH_FUNC_cmake%%": stand_in},
         )
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
@@ -178,8 +178,8 @@ class ReportTest(unittest.TestCase):
         (bundle / "run").chmod(0o755)
         (bundle / "data/problems").mkdir(parents=True)
         command = [bundle / "report", bundle / "out", "--device", "1"]
-        result = subprocess.run(command, capture_output=True, text=True, timeout=60)
-        self.again = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        result = subprocess.run(command, capture_output=True, text=True, timeout=300)
+        self.again = subprocess.run(command, capture_output=True, text=True, timeout=300)
         return result.returncode, (bundle / "out/report.txt").read_text()
 
     def test_has_the_output_of_each_program_for_the_device(self):

@@ -12,7 +12,7 @@ class Configure(unittest.TestCase):
             options = ["-G", "Ninja", "-DPYTHON_EXECUTABLE=/usr/bin/python3", "-DBUILD_TESTING=OFF",
                        "-DGPU_PLANNING_SCENE_BENCH=OFF"]
             answer = subprocess.run(["cmake", "-S", str(ROOT), "-B", folder, *options], capture_output=True, text=True,
-                                    timeout=100, check=False)
+                                    timeout=500, check=False)
         self.assertEqual(0, answer.returncode, answer.stderr)
         # catkin's own scripts have warnings of Python.
         self.assertNotIn("CMake Warning", answer.stderr)
