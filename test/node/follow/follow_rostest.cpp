@@ -122,7 +122,7 @@ TEST_F(Replicas, SayThatASensorOfTheLeaderIsSilent)
   ros::param::set("/seeing/sensors", sensors);
   const ChildNode seeing("seeing", {"_device:=cpu"});
   const std::unique_ptr<ChildNode> listening = follower("listening", "/seeing");
-  for (const ChildNode* node : {&seeing, listening.get()})
+  for (const ChildNode* node : std::initializer_list<const ChildNode*>{&seeing, listening.get()})
     EXPECT_TRUE(becomes(
         [&]
         {
