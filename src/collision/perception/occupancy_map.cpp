@@ -314,7 +314,7 @@ VoxelCubes OccupancyMap::cubes(const PlanningScene& scene, const double* state)
     visible.are_whole = false;
     if (split == kSplits)
       return visible;
-    for (std::uint8_t& flag : touches)
+    for (std::uint8_t& flag : touches)  // now the others are removed
       flag ^= kNearRobot;
     removeFlagged(touched, touches, kNearRobot);
     centres = grid.eighthsOf(touched);

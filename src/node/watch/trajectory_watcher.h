@@ -70,8 +70,6 @@ class TrajectoryWatcher
 
   ros::NodeHandle node_;
   SceneStore& store_;
-  const MakeChecker make_checker_;
-  const RestChecker::InspectorOf inspector_of_;
   const std::function<void()> require_scene_;
   const WatcherOptions options_;
   ros::Publisher publisher_;
