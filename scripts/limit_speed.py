@@ -11,6 +11,7 @@ joint values are older than 0.25 s when the answer comes. Joints outside ~group 
 controller must stop by itself if no more commands come."""
 import argparse
 import math
+import threading
 import time
 
 OLDEST = 0.25  # seconds: joint values count up to this age
@@ -66,7 +67,8 @@ class SpeedLimiter:
         rospy.Subscriber("joint_states", JointState, self.take_values, queue_size=10)
         rospy.Subscriber("command", JointState, self.take_command, queue_size=1)
         self.checked = None  # the command that is checked now, and the steady time since when
-        rospy.Timer(rospy.Duration(OLDEST / 5), self.stop_while_waiting)
+        # No timer of rospy: it stands with a simulated clock.
+        threading.Thread(target=self.stop_while_waiting, daemon=True).start()
 
     def take_values(self, message):
         arrival = time.monotonic()  # the ROS clock of a simulation may go back
@@ -89,12 +91,14 @@ class SpeedLimiter:
         self.limited.publish(self.command(header=message.header, name=message.name, position=message.position,
                                           velocity=velocity, effort=message.effort))
 
-    def stop_while_waiting(self, _event):
+    def stop_while_waiting(self):
         """The call of a service has no time limit: a node that hangs must not leave the robot at its last velocity."""
-        checked = self.checked
-        if checked and time.monotonic() - checked[1] > OLDEST:
-            self.ros.logwarn_throttle(1, f"limit_speed.py: stopped: the node has not answered for {OLDEST} s")
-            self.publish(checked[0], 0.0)
+        while not self.ros.is_shutdown():
+            time.sleep(OLDEST / 5)
+            checked = self.checked
+            if checked and time.monotonic() - checked[1] > OLDEST:
+                self.ros.logwarn(f"limit_speed.py: stopped: the node has not answered for {OLDEST} s")
+                self.publish(checked[0], 0.0)
 
     def joints_of_group(self):
         """The joints that ~group moves; none without a group."""

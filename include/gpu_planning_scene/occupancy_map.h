@@ -64,14 +64,15 @@ struct OccupancyMapOptions
   /// Seconds (SensorView::received): a voxel that no point has hit for so long is removed, also where no sensor looks.
   /// 0: never.
   double decay = 0.0;
-  std::size_t max_voxels = 200'000;  ///< see add()
+  /// The largest number of cubes, see OccupancyMap::cubes. The map keeps nine tenths of so many voxels.
+  std::size_t max_voxels = 200'000;
 };
 
 /// The voxels as shapes of a scene: see OccupancyMap::cubes().
 struct VoxelCubes
 {
   std::vector<PlacedShape> cubes;
-  bool are_whole = true;  ///< false: the robot touches a voxel, so a part of it is missing
+  bool are_whole = true;  ///< false: the robot is in a voxel or has just left it, so a part of it is missing
 };
 
 /// The voxels that depth cameras and laser scanners have found occupied. Free space is not stored, because the scene
@@ -105,9 +106,9 @@ class OccupancyMap
   /// Takes a measurement. `state`: one value per variable, of the time of the measurement. `left_out`: ids of objects
   /// of the world that are known exactly, for example a part that is to be grasped. Their points are not used, and
   /// voxels within SensorView::padding of them are removed. Ids of attached objects count as the robot, and unknown ids
-  /// have no effect. Returns the number of voxels that found no room in `max_voxels`; these are the farthest from the
-  /// sensor. Throws Error if an argument is not valid, or if a point is too far away for the size of the voxels. If it
-  /// throws, nothing has changed.
+  /// have no effect. Returns the number of voxels that found no room in `max_voxels`; these are the farthest from
+  /// the robot's links. Throws Error if an argument is not valid, or if a point is too far away for the size of the
+  /// voxels. If it throws, nothing has changed.
   std::size_t add(const DepthImage& image, const SensorView& view, const PlanningScene& scene, const double* state,
                   const std::set<std::string>& left_out = {});
   /// `points`: metres, in the sensor's frame. Points that are not finite are not measured.
@@ -122,8 +123,10 @@ class OccupancyMap
   /// The occupied voxels as cubes in the planning frame. The robot in `state`, with its attached objects, does not
   /// touch them: a voxel that it touches is replaced by those of its parts, cubes of half and of a quarter of its edge,
   /// that are farther from the robot than its largest paddings by at least 1 mm. So the robot can leave such a voxel,
-  /// and a motion further into it collides with what is left of it. Null: nothing is known about the robot, and all
-  /// voxels are whole.
+  /// and a motion further into it collides with what is left of it. The voxels beside it are replaced too where they
+  /// are within the paddings, and all of them are whole again when the robot is farther from them. If the parts are
+  /// more than `max_voxels`, or too far from the origin for an octree, larger parts stay, and the robot touches them.
+  /// Null: nothing is known about the robot, and all voxels are whole.
   VoxelCubes cubes(const PlanningScene& scene, const double* state);
 
   /// The number of occupied voxels.

@@ -85,6 +85,12 @@ std::string Snapshot::endedVariable(const std::vector<int>& others) const
         std::count(others.begin(), others.end(), static_cast<int>(i)) == 0)
       return "joint_states has brought no value of '" + scene->robot->variables()[i].name + "' for " +
              numberText(ages[i]) + " s, so this joint may be anywhere";
+  if (base.values.empty() || !(base.age > kEndedAge))
+    return "";
+  for (const int variable : virtualVariables(*scene->robot))
+    if (std::count(others.begin(), others.end(), variable) == 0)
+      return "tf has brought no pose of the robot's base for " + numberText(base.age) +
+             " s, so the robot may be anywhere";
   return "";
 }
 
@@ -301,7 +307,9 @@ std::uint64_t SceneStore::replace(PlanningScene scene, const std::map<std::strin
     scene_ = after;
     assign(*scene_->robot, variables, state_, known_);
     for (const auto& [name, value] : variables)
-      if (const int variable = scene_->robot->variableIndex(name); variable >= 0)
+      if (const int variable = scene_->robot->variableIndex(name);
+          variable >= 0 &&
+          !(keeps_ages_ && measured_at_[static_cast<std::size_t>(variable)] != Clock::time_point::min()))
       {
         stamps_[static_cast<std::size_t>(variable)] = 0;
         measured_at_[static_cast<std::size_t>(variable)] = Clock::time_point::min();

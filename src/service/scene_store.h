@@ -25,6 +25,7 @@ struct AssumedBase
   std::vector<double> values = {};  ///< of virtualVariables(); empty: the robot stands at the origin
   /// A warning about this pose in one line, or empty. If there are no values: the reason.
   std::string warning = {};
+  double age = 0.0;  ///< seconds; 0: of a base that does not move
 };
 
 /// An immutable scene, and the robot's state at the same instant.
@@ -45,8 +46,9 @@ struct Snapshot
   /// Whether SceneStore::updateState has set the variable in the last second. This is longer than between two messages
   /// of a running robot's joints. A joint whose messages end takes values from others.
   bool isMeasured(int variable) const { return ages[static_cast<std::size_t>(variable)] <= 1.0; }
-  /// A fault in one line if SceneStore::updateState has set a variable, but not in the last 2.5 s: the joint may be
-  /// anywhere by now. Empty: there is no such variable. `others`: variables that do not count.
+  /// A fault in one line if SceneStore::updateState has set a variable, but not in the last 2.5 s, or if the pose of
+  /// `base` is older: the joint may be anywhere by now. Empty: there is no such variable. `others`: variables that do
+  /// not count.
   std::string endedVariable(const std::vector<int>& others = {}) const;
   /// Whether all variables are known. The virtual joint counts as known if `base` has values. Passive joints always
   /// count as known.
@@ -93,6 +95,10 @@ class SceneStore
   /// Calls applyChange. Changes are made one after the other. Each change increases the revision by 1. If it throws,
   /// nothing has changed.
   Applied apply(const SceneChange& change, const Lookup& lookup);
+
+  /// From now on, the ages of variables that updateState has set go on when a change sets them: the scene follows that
+  /// of another node, whose values may be older than those that have ended here.
+  void keepAges() { keeps_ages_ = true; }
 
   /// From now on, only sense() changes the octomap of the scene: apply() and clear() leave it, see keepingOctomap.
   void reserveOctomap() { octomap_is_sensed_ = true; }
@@ -172,6 +178,7 @@ class SceneStore
   std::size_t replaced_shapes_ = 0;
   mutable std::condition_variable arrived_;
   std::atomic<bool> octomap_is_sensed_{false};
+  std::atomic<bool> keeps_ages_{false};
   mutable std::mutex octomap_mutex_;  // guards the next member; held during its call
   std::function<std::string()> octomap_fault_;
   const SceneDefaults defaults_;

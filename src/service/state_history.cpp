@@ -36,14 +36,16 @@ void StateHistory::add(std::size_t variable, double value, std::int64_t stamp)
   std::deque<Stamped>& by_stamp = values.by_stamp;
   if (stamp == 0)
   {
+    values.forgot = values.forgot || !by_stamp.empty();
     by_stamp.clear();
-    values.forgot = false;
     return;
   }
   if (!by_stamp.empty() && by_stamp.back().stamp > stamp + kNear)
+  {
     while (!by_stamp.empty() && by_stamp.back().stamp > stamp)
       by_stamp.pop_back();
-  values.forgot = values.forgot && !by_stamp.empty();
+    values.forgot = values.forgot && !by_stamp.empty();
+  }
   const auto at = std::lower_bound(by_stamp.begin(), by_stamp.end(), stamp,
                                    [](const Stamped& other, std::int64_t wanted) { return other.stamp < wanted; });
   if (at != by_stamp.end() && at->stamp == stamp)
@@ -57,15 +59,14 @@ void StateHistory::add(std::size_t variable, double value, std::int64_t stamp)
   }
 }
 
-/// Whether the variable has moved within the last kFast.
-bool StateHistory::moves(const Values& values)
+/// Whether the variable moves within kFast from its value `at`, in the direction of the iterators.
+template <class Iterator>
+bool StateHistory::moves(const Values& values, Iterator at, Iterator end)
 {
-  const Stamped& last = values.by_stamp.back();
-  for (auto other = values.by_stamp.rbegin() + 1; other != values.by_stamp.rend() && last.stamp - other->stamp <= kFast;
-       ++other)
+  for (Iterator other = std::next(at); other != end && std::abs(at->stamp - other->stamp) <= kFast; ++other)
   {
     const double change =
-        values.kind == Kind::Angle ? shortestAngularDistance(other->value, last.value) : last.value - other->value;
+        values.kind == Kind::Angle ? shortestAngularDistance(other->value, at->value) : at->value - other->value;
     if (std::abs(change) > kStands)
       return true;
   }
@@ -90,11 +91,18 @@ double StateHistory::valueAt(const Values& values, std::int64_t stamp)
                 " s away in time; publish joint_states at least every second, with the same clock");
   if (after == by_stamp.end())
   {
-    if (moves(values))
+    if (moves(values, by_stamp.rbegin(), by_stamp.rend()))
       throw NotKnownYet("'" + values.name +
                         "' moves, and joint_states has brought no value of this time or later; publish it more often, "
                         "with the same clock");
     return nearest.value;
+  }
+  if (after == by_stamp.begin() && after->stamp != stamp)
+  {
+    if (by_stamp.size() == 1)
+      throw NotKnownYet("'" + values.name + "' has only one value yet, so it may have moved since this time");
+    if (moves(values, by_stamp.begin(), by_stamp.end()))
+      throw Error("'" + values.name + "' moves, and joint_states has brought no value of this time or earlier");
   }
   if (after == by_stamp.begin() || after->stamp == stamp || values.kind == Kind::Quaternion)
     return nearest.value;

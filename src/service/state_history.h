@@ -29,8 +29,9 @@ class StateHistory
   /// Sets each variable that has a history to its value at `stamp` (nanoseconds): on a straight line between the values
   /// before and after it, and for a quaternion the nearest value. Without a value after `stamp`, the last one counts if
   /// the variable stands still, or if its driver is slow; otherwise throws NotKnownYet, because a later one soon comes.
-  /// Throws Error if the nearest value is more than kNear away, or if `stamp` is before all kept values and older ones
-  /// were dropped.
+  /// The same holds before the first value, but there it throws Error for a variable that moves, and NotKnownYet if
+  /// there is only one value. Throws Error if the nearest value is more than kNear away, or if `stamp` is before all
+  /// kept values and older ones were dropped.
   void setAt(std::int64_t stamp, std::vector<double>& state) const;
 
  private:
@@ -54,7 +55,8 @@ class StateHistory
   };
 
   static double valueAt(const Values& values, std::int64_t stamp);
-  static bool moves(const Values& values);
+  template <class Iterator>
+  static bool moves(const Values& values, Iterator at, Iterator end);
 
   std::vector<Values> values_;
 };

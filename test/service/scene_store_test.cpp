@@ -362,6 +362,34 @@ TEST_F(Store, TheStateAtAStampWaitsForTheNextValueOfAVariableThatMoves)
   EXPECT_EQ(0.5, store.stateAt(now + 500 * kMillisecond).at(0)) << "the driver is slow";
 }
 
+TEST_F(Store, TheStateBeforeTheFirstValueIsKnownOnlyOfAVariableThatStands)
+{
+  constexpr std::int64_t kMillisecond = 1'000'000;
+  const std::int64_t begin = 1000 * kMillisecond;
+  store.updateState({{"slide", 0.3}}, begin);
+  EXPECT_THROW(store.stateAt(begin - 1), NotKnownYet) << "a single value says nothing about motion";
+  store.updateState({{"slide", 0.3}}, begin + 10 * kMillisecond);
+  EXPECT_EQ(0.3, store.stateAt(begin - 1).at(0));
+  store.updateState({{"slide", 0.31}}, begin + 20 * kMillisecond);
+  EXPECT_THROW(store.stateAt(begin - 1), Error) << "it moves";
+  EXPECT_EQ(0.3, store.stateAt(begin).at(0));
+}
+
+TEST_F(Store, AChangeForgetsTheStatesBeforeIt)
+{
+  constexpr std::int64_t kMillisecond = 1'000'000;
+  for (std::int64_t i = 0; i < 100; ++i)
+    store.updateState({{"slide", 0.001 * static_cast<double>(i)}}, (1000 + 10 * i) * kMillisecond);
+  SceneChange change;
+  change.is_diff = true;
+  change.state.variables = {{"slide", 0.1}};
+  store.apply(change, unknownFrame);
+  for (std::int64_t i = 0; i < 3; ++i)
+    store.updateState({{"slide", 0.1}}, (2000 + 10 * i) * kMillisecond);
+  EXPECT_THROW(store.stateAt(1900 * kMillisecond), Error);
+  EXPECT_EQ(0.1, store.stateAt(2005 * kMillisecond).at(0));
+}
+
 TEST(StateHistoryOfAWheel, TurnsOnThroughHalfATurn)
 {
   const auto robot = robotOf("<link name='base'/>" + boxLink("wheel") +
@@ -410,6 +438,19 @@ TEST_F(Store, AMeasuredVariableWhoseValuesHaveEndedIsNamed)
   store.updateState({{"slide", 0.25}}, 5'000'000'000);
   store.apply(change, unknownFrame);
   EXPECT_EQ(0.5, store.stateAt(100'000'000'000).at(0)) << "also for measurements";
+}
+
+TEST_F(Store, AValueThatHasEndedStaysEndedWhenAFollowedSceneSetsIt)
+{
+  store.keepAges();
+  store.updateState({{"slide", 0.25}});
+  std::this_thread::sleep_for(std::chrono::milliseconds(2600));
+  SceneChange change;
+  change.is_diff = true;
+  change.state.variables = {{"slide", 0.5}, {"turn", 0.5}};
+  store.follow(change, 7);
+  EXPECT_EQ(0.5, store.snapshot().state.at(0));
+  EXPECT_EQ(0u, store.snapshot().endedVariable().find("joint_states has brought no value of 'slide' for "));
 }
 
 TEST_F(Store, AClockThatIsSetBackByLessThanTheKeptTimeForgetsTheValuesOfBefore)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "base/text/number_text.h"
@@ -39,6 +40,12 @@ bool isBefore(double time, double other)
 // if they almost touched.
 constexpr double kClearance = 1e-3;
 constexpr int kSplits = 2;  // of a voxel that the robot touches
+
+// Of the cubes: room for the parts of voxels that the robot touches.
+constexpr std::size_t kShareOfParts = 10;
+
+// OctoMap's octrees have 16 levels, so their cubes are within so many of the smallest edges of the origin.
+constexpr double kOctreeReach = 32768.0;
 
 struct Voxel
 {
@@ -99,11 +106,16 @@ struct OccupancyMap::Impl
   std::vector<Voxel> takeKnown(std::vector<Hit>& hits, const Measurement& measurement, const Isometry3d& sensor,
                                const SensorView& view) const;
   void keepNearest(const PlanningScene& scene, const double* state, std::vector<Voxel>& some) const;
+  VoxelCubes cubes(const PlanningScene& scene, const double* state);
+  std::vector<Vector3d> updateSplit(const PlanningScene& scene, const double* state);
+  std::size_t room() const { return options.max_voxels - options.max_voxels / kShareOfParts; }
+  double reach() const;
 
   const OccupancyMapOptions options;
   const VoxelGrid grid;
   BodyFilter bodies;
-  std::vector<Voxel> voxels;  // in ascending order of their keys
+  std::vector<Voxel> voxels;         // in ascending order of their keys
+  std::vector<std::uint64_t> split;  // keys of the voxels that cubes() splits, in ascending order
 };
 
 template <class Keyed>
@@ -227,7 +239,7 @@ std::size_t OccupancyMap::Impl::add(const Measurement& measurement, const Sensor
   for (const Hit& hit : hits)
     known.push_back({hit.key, view.time, view.received, 1, hit.is_whole});
   std::inplace_merge(known.begin(), known.begin() + middle, known.end(), hasSmallerKey);
-  const std::size_t without_room = known.size() - std::min(known.size(), options.max_voxels);
+  const std::size_t without_room = known.size() - std::min(known.size(), room());
   if (without_room > 0)
     keepNearest(scene, state, known);
   voxels = std::move(known);
@@ -250,13 +262,93 @@ void OccupancyMap::Impl::keepNearest(const PlanningScene& scene, const double* s
       least = std::min(least, (link.translation() - centre).squaredNorm());
     by_distance.emplace_back(least, voxel);
   }
-  const auto last = by_distance.begin() + static_cast<std::ptrdiff_t>(options.max_voxels);
+  const auto last = by_distance.begin() + static_cast<std::ptrdiff_t>(room());
   std::nth_element(by_distance.begin(), last, by_distance.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });
   some.clear();
   for (auto kept = by_distance.begin(); kept != last; ++kept)
     some.push_back(kept->second);
   std::sort(some.begin(), some.end(), hasSmallerKey);
+}
+
+/// Updates `split`. A voxel is split from when the robot touches it, or a voxel beside it, until the robot is farther
+/// from it than its paddings: until then the robot could not leave a whole voxel. Returns the centres of the other
+/// voxels.
+std::vector<Vector3d> OccupancyMap::Impl::updateSplit(const PlanningScene& scene, const double* state)
+{
+  std::vector<Vector3d> centres = centresOf(voxels);
+  const std::vector<std::uint8_t> touches = bodies.near(grid, centres, scene, state, 0.0, {});
+  std::set<std::uint64_t> candidates(split.begin(), split.end());
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+    if ((touches[i] & kNearRobot) != 0)
+      for (const std::uint64_t key : VoxelGrid::around(voxels[i].key))
+        candidates.insert(key);
+  split.clear();
+  if (candidates.empty())
+    return centres;
+  std::vector<std::size_t> numbers;
+  std::vector<Vector3d> some;
+  for (std::size_t i = 0; i < voxels.size(); ++i)
+    if (candidates.count(voxels[i].key) != 0)
+    {
+      numbers.push_back(i);
+      some.push_back(centres[i]);
+    }
+  const std::vector<std::uint8_t> near =
+      bodies.near(grid, some, scene, state, requiredDistance(scene) + kClearance, {});
+  std::vector<std::uint8_t> is_split(voxels.size(), 0);
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if ((near[i] & kNearRobot) != 0)
+    {
+      is_split[numbers[i]] = kNearRobot;
+      split.push_back(voxels[numbers[i]].key);
+    }
+  removeFlagged(centres, is_split);
+  return centres;
+}
+
+/// Metres: the largest coordinate of the voxels.
+double OccupancyMap::Impl::reach() const
+{
+  double reach = 0.0;
+  for (const Voxel& voxel : voxels)
+    reach = std::max(reach, grid.centreOf(voxel.key).cwiseAbs().maxCoeff() + 0.5 * grid.size());
+  return reach;
+}
+
+VoxelCubes OccupancyMap::Impl::cubes(const PlanningScene& scene, const double* state)
+{
+  VoxelCubes visible;
+  visible.cubes = grid.cubesAt(updateSplit(scene, state));
+  visible.are_whole = split.empty();
+  std::vector<Vector3d> near;  // cubes of `parts` that are too near to the robot
+  for (const std::uint64_t key : split)
+    near.push_back(grid.centreOf(key));
+  VoxelGrid parts = grid;
+  const double farthest = reach();
+  for (int level = 0; level < kSplits; ++level)
+  {
+    const std::size_t count = visible.cubes.size() + 8 * near.size();
+    if (count > options.max_voxels || farthest > kOctreeReach * 0.5 * parts.size())
+    {
+      // The scene takes no smaller parts. The robot collides with these ones, which is better than none.
+      for (PlacedShape& cube : parts.cubesAt(near))
+        visible.cubes.push_back(std::move(cube));
+      break;
+    }
+    std::vector<Vector3d> centres = parts.eighthsOf(near);
+    parts = VoxelGrid(0.5 * parts.size());
+    std::vector<std::uint8_t> flags =
+        bodies.near(parts, centres, scene, state, requiredDistance(scene) + kClearance, {});
+    near = centres;
+    removeFlagged(centres, flags, kNearRobot);
+    for (PlacedShape& cube : parts.cubesAt(centres))
+      visible.cubes.push_back(std::move(cube));
+    for (std::uint8_t& flag : flags)  // now the others are removed
+      flag ^= kNearRobot;
+    removeFlagged(near, flags, kNearRobot);
+  }
+  return visible;
 }
 
 OccupancyMap::OccupancyMap(const OccupancyMapOptions& options)
@@ -296,31 +388,10 @@ void OccupancyMap::removeNear(const std::set<std::string>& objects, double paddi
 
 VoxelCubes OccupancyMap::cubes(const PlanningScene& scene, const double* state)
 {
-  std::vector<Vector3d> centres = impl_->centresOf(impl_->voxels);
   if (state == nullptr)
-    return {impl_->grid.cubesAt(centres)};
+    return {impl_->grid.cubesAt(impl_->centresOf(impl_->voxels))};
   validateStates(*scene.robot, state, 1);
-  VoxelCubes visible;
-  VoxelGrid grid = impl_->grid;
-  std::vector<std::uint8_t> touches = impl_->bodies.near(grid, centres, scene, state, 0.0, {});
-  for (int split = 0;; ++split)
-  {
-    std::vector<Vector3d> touched = centres;
-    removeFlagged(centres, touches, kNearRobot);
-    for (PlacedShape& cube : grid.cubesAt(centres))
-      visible.cubes.push_back(std::move(cube));
-    if (centres.size() == touched.size())
-      return visible;
-    visible.are_whole = false;
-    if (split == kSplits)
-      return visible;
-    for (std::uint8_t& flag : touches)  // now the others are removed
-      flag ^= kNearRobot;
-    removeFlagged(touched, touches, kNearRobot);
-    centres = grid.eighthsOf(touched);
-    grid = VoxelGrid(0.5 * grid.size());
-    touches = impl_->bodies.near(grid, centres, scene, state, requiredDistance(scene) + kClearance, {});
-  }
+  return impl_->cubes(scene, state);
 }
 
 std::size_t OccupancyMap::size() const
@@ -331,5 +402,6 @@ std::size_t OccupancyMap::size() const
 void OccupancyMap::clear()
 {
   impl_->voxels.clear();
+  impl_->split.clear();
 }
 }  // namespace gpu_planning_scene::core

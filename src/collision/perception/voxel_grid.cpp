@@ -40,6 +40,19 @@ Vector3d VoxelGrid::centreOf(std::uint64_t key) const
   return centre;
 }
 
+std::array<std::uint64_t, 27> VoxelGrid::around(std::uint64_t key)
+{
+  // keyOf() leaves room for one more voxel on each side, so no index overflows.
+  std::array<std::uint64_t, 27> keys{};
+  std::size_t next = 0;
+  const std::uint64_t first = key - (1U | std::uint64_t{1} << kIndexBits | std::uint64_t{1} << (2 * kIndexBits));
+  for (std::uint64_t x = 0; x < 3; ++x)
+    for (std::uint64_t y = 0; y < 3; ++y)
+      for (std::uint64_t z = 0; z < 3; ++z)
+        keys[next++] = first + (x | y << kIndexBits | z << (2 * kIndexBits));
+  return keys;
+}
+
 std::vector<Vector3d> VoxelGrid::eighthsOf(const std::vector<Vector3d>& centres) const
 {
   const double quarter = 0.25 * size_;

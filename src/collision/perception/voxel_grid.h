@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +23,8 @@ class VoxelGrid
   /// The voxel that contains a point of the planning frame. Throws Error for a point that is too far from the origin.
   std::uint64_t keyOf(const Eigen::Vector3d& point) const;
   Eigen::Vector3d centreOf(std::uint64_t key) const;
+  /// The keys of the voxel and of the 26 voxels that touch it.
+  static std::array<std::uint64_t, 27> around(std::uint64_t key);
   /// The centres of the eight cubes of half the edge in each voxel with one of these centres.
   std::vector<Eigen::Vector3d> eighthsOf(const std::vector<Eigen::Vector3d>& centres) const;
   /// A cube around each centre, in the planning frame.

@@ -19,6 +19,7 @@ LeaderScene::LeaderScene(const ros::NodeHandle& node, ros::NodeHandle& timers, c
                          std::uint64_t setup, SceneStore& store, SceneServices& changes)
   : SceneFollower(node, timers, options), setup_(setup), store_(store), changes_(changes)
 {
+  store_.keepAges();
   store_.setOctomapFault(
       [this]
       {

@@ -65,6 +65,7 @@ FollowedScene::FollowedScene(const ros::NodeHandle& node, ros::NodeHandle& timer
                              SceneStore& store, SceneServices& changes, SceneStore::Lookup lookup)
   : SceneFollower(node, timers, options), store_(store), changes_(changes), lookup_(std::move(lookup))
 {
+  store_.keepAges();
   start();
 }
 

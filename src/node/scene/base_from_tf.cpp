@@ -1,6 +1,7 @@
 #include "node/scene/base_from_tf.h"
 
 #include <cmath>
+#include <limits>
 
 #include "base/text/number_text.h"
 #include "gpu_planning_scene/error.h"
@@ -18,7 +19,7 @@ AssumedBase valuesAt(const Joint& joint, const Eigen::Isometry3d& pose)
 {
   try
   {
-    return {variablesAt(joint, pose), ""};
+    return {variablesAt(joint, pose)};
   }
   catch (const Error&)
   {
@@ -98,6 +99,12 @@ AssumedBase BaseFromTf::thatOf(std::int64_t stamp)
               " s before the newest transform " + frames() + " is not available on tf");
 }
 
+/// Seconds; 0 for a static transform, which has no stamp.
+double BaseFromTf::ageOf(const FrameLookup::Found& found) const
+{
+  return found.stamp == 0 ? 0.0 : 1e-9 * static_cast<double>(now_() - found.stamp);
+}
+
 AssumedBase BaseFromTf::newest()
 {
   try
@@ -111,11 +118,11 @@ AssumedBase BaseFromTf::newest()
       newest_ = found;
     }
     AssumedBase base = valuesAt(*joint_, found.pose);
-    const double age = 1e-9 * static_cast<double>(now_() - found.stamp);
-    if (found.stamp != 0 && age > kOldAge)
+    base.age = ageOf(found);
+    if (base.age > kOldAge)
       base.warning += (base.warning.empty() ? "" : "; ") +
                       std::string("the robot's pose comes from tf, and its newest transform ") + frames() + " is " +
-                      std::to_string(age) + " s old";
+                      std::to_string(base.age) + " s old";
     return base;
   }
   catch (const tf2::TransformException&)
@@ -124,6 +131,7 @@ AssumedBase BaseFromTf::newest()
     if (!newest_)
       return {{}, "tf has no transform " + frames()};
     AssumedBase base = valuesAt(*joint_, newest_->pose);
+    base.age = newest_->stamp != 0 ? ageOf(*newest_) : std::numeric_limits<double>::infinity();
     base.warning = "the robot's pose comes from tf, which has lost the transform " + frames() +
                    "; the last one that it had is used";
     return base;

@@ -32,6 +32,7 @@ class BaseFromTf
  private:
   AssumedBase thatOf(std::int64_t stamp);
   AssumedBase newest();
+  double ageOf(const FrameLookup::Found& found) const;
   std::string frames() const;  // for messages
 
   const Find find_;

@@ -8,6 +8,16 @@
 
 namespace gpu_planning_scene::core
 {
+namespace
+{
+PlanningSceneMessage fullMessageOf(const Snapshot& now)
+{
+  PlanningSceneMessage message = messageOf(*now.scene, 0, now.state, now.known);
+  message.octomap_fault = now.octomap_fault;
+  return message;
+}
+}  // namespace
+
 ScenePublisher::ScenePublisher(ros::NodeHandle& own, SceneStore& store, double full_scene_period, std::uint64_t setup)
   : store_(store),
     setup_(setup),
@@ -64,7 +74,7 @@ void ScenePublisher::sendTo(const ros::SingleSubscriberPublisher& subscriber)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   const Snapshot now = store_.snapshot();
-  subscriber.publish(messageOf(*now.scene, 0, now.state, now.known));
+  subscriber.publish(fullMessageOf(now));
 }
 
 void ScenePublisher::publishFull(const Snapshot& now)
@@ -72,7 +82,7 @@ void ScenePublisher::publishFull(const Snapshot& now)
   const std::lock_guard<std::mutex> lock(mutex_);
   if (full_revision_ >= now.scene->revision)
     return;
-  full_.publish(messageOf(*now.scene, 0, now.state, now.known));
+  full_.publish(fullMessageOf(now));
   full_revision_ = now.scene->revision;
 }
 }  // namespace gpu_planning_scene::core

@@ -26,6 +26,7 @@ void SensorRecord::use(double its_lag, const std::string& lost)
     lost_at = ros::SteadyTime::now();
   }
   ++used;
+  has_measured = true;
   used_at = ros::SteadyTime::now();
   silence_is_logged = false;
   fault.clear();
@@ -39,13 +40,22 @@ void SensorRecord::reject(const std::string& why)
   fault = why;
 }
 
-std::string SensorRecord::outdated(const std::string& topic, double seconds) const
+bool SensorRecord::hasLost() const
 {
+  return !loss.empty() && (ros::SteadyTime::now() - lost_at).toSec() < kShownLoss;
+}
+
+std::string SensorRecord::octomapFault(const std::string& topic, double seconds) const
+{
+  if (hasLost())
+    return "sensor " + topic + ": " + loss;
   const double silent = (ros::SteadyTime::now() - used_at).toSec();
-  if (seconds == 0.0 || (used > 0 && silent <= seconds))
+  if (seconds == 0.0 || (has_measured && silent <= seconds))
     return "";
   return "the octomap may be out of date: no measurement of sensor " + topic + " was used " +
-         (used > 0 ? "for " + numberText(silent) + " s" : "yet") +
+         (has_measured ? "for " + numberText(silent) + " s"
+          : used > 0   ? "since the octomap was cleared"
+                       : "yet") +
          (fault.empty() ? "" : "; the last one was rejected: " + fault);
 }
 
@@ -72,7 +82,7 @@ DiagnosticStatus SensorRecord::status(const std::string& topic)
     status.level = DiagnosticStatus::ERROR;
     status.message = "the octomap does not follow this sensor: " + fault;
   }
-  else if (!loss.empty() && (ros::SteadyTime::now() - lost_at).toSec() < kShownLoss)
+  else if (hasLost())
   {
     status.level = DiagnosticStatus::ERROR;
     status.message = loss;

@@ -15,6 +15,7 @@ struct SensorRecord
   std::uint64_t dropped = 0;
   std::uint64_t rejected = 0;
   ros::SteadyTime used_at = ros::SteadyTime::now();  ///< of the last used measurement; before it, the start
+  bool has_measured = false;                         ///< since the last call of forget(), or the start
   bool silence_is_logged = false;
   std::string fault;         ///< of the last measurement; empty if it was used
   std::string loss;          ///< the last one, see use()
@@ -28,8 +29,12 @@ struct SensorRecord
   /// Counts a measurement that is not in the scene. `why`: one line.
   void reject(const std::string& why);
 
-  /// One line if no measurement was used in the last `seconds`, otherwise empty. 0: always empty.
-  std::string outdated(const std::string& topic, double seconds) const;
+  /// The octomap was cleared: nothing is known until the next measurement.
+  void forget() { has_measured = false; }
+
+  /// Why the octomap may lack what this sensor measures, in one line: no measurement was used in the last `seconds`, or
+  /// voxels were lost in the last 10 s. Otherwise empty. 0 seconds: a silent sensor is no fault.
+  std::string octomapFault(const std::string& topic, double seconds) const;
 
   /// A line for the log if no measurement was used for so long that the user should look. Empty if one was used, or if
   /// this silence got its line already.
@@ -38,5 +43,8 @@ struct SensorRecord
   /// ERROR if the last measurement was rejected or voxels were lost in the last 10 s, WARN if no measurement was used
   /// for a second. Resets `longest_lag`.
   diagnostic_msgs::DiagnosticStatus status(const std::string& topic);
+
+ private:
+  bool hasLost() const;
 };
 }  // namespace gpu_planning_scene::core

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -30,6 +31,27 @@ const std_msgs::Header& headerOf(const std::variant<sensor_msgs::Image, sensor_m
 double ageOf(const std_msgs::Header& header)
 {
   return ros::Time::now().toSec() - header.stamp.toSec();
+}
+
+/// Throws Error for an image that sees nothing at all: it says nothing about the world, not even that it is empty.
+SensedMap::Measurement measuredOf(const sensor_msgs::Image& message, const PinholeCamera& camera)
+{
+  DepthImage image = depthImageOf(message, camera);
+  if (std::all_of(image.depths.begin(), image.depths.end(),
+                  [](float depth) { return std::isnan(depth) || depth == 0.0F; }))
+    throw Error(
+        "no pixel is measured (all are 0 or NaN); is the lens covered, or is everything beyond the sensor's range?");
+  return image;
+}
+
+/// The same for a cloud. One without any points may come from a scanner whose rays meet nothing.
+SensedMap::Measurement measuredOf(const sensor_msgs::PointCloud2& message, std::size_t step)
+{
+  std::vector<Eigen::Vector3f> points = pointsOf(message, step);
+  if (!points.empty() &&
+      std::none_of(points.begin(), points.end(), [](const auto& point) { return point.allFinite(); }))
+    throw Error("no point of the cloud is measured (none is finite); is the sensor covered?");
+  return points;
 }
 
 double largestPadding(const std::vector<SensorOptions>& sensors)
@@ -153,10 +175,12 @@ void Sensors::run()
 /// Uses the measurement of a sensor. Returns false if there is none, or if it still waits for its frame.
 bool Sensors::take(Sensor& sensor)
 {
+  std::uint64_t clears = 0;
   {
     const std::lock_guard<std::mutex> lock(waiting_mutex_);
     if (!sensor.current)
       sensor.current = std::exchange(sensor.waiting, std::nullopt);
+    clears = clears_;
   }
   if (!sensor.current)
     return false;
@@ -190,6 +214,8 @@ bool Sensors::take(Sensor& sensor)
     sensor.record.reject(fault.message);
   else
     sensor.record.use(header.stamp.isZero() ? 0.0 : ageOf(header), loss);
+  if (clears != clears_)  // the measurement may be among what was cleared
+    sensor.record.forget();
   return true;
 }
 
@@ -227,9 +253,9 @@ std::string Sensors::use(const Sensor& sensor)
 
   const auto* image = std::get_if<sensor_msgs::Image>(&message);
   const std::size_t without_room =
-      image != nullptr
-          ? map_.add(depthImageOf(*image, *camera), view, measured.state)
-          : map_.add(pointsOf(std::get<sensor_msgs::PointCloud2>(message), options.step), view, measured.state);
+      map_.add(image != nullptr ? measuredOf(*image, *camera)
+                                : measuredOf(std::get<sensor_msgs::PointCloud2>(message), options.step),
+               view, measured.state);
   return without_room == 0
              ? ""
              : std::to_string(without_room) +
@@ -247,15 +273,27 @@ ExcludeFromSensors::Response Sensors::exclude(const ExcludeFromSensors::Request&
 
 Clear::Response Sensors::clear()
 {
-  return respond<Clear::Response>([&](Clear::Response& response) { response.scene_revision = map_.clear(); });
+  return respond<Clear::Response>(
+      [&](Clear::Response& response)
+      {
+        {
+          // Before the map is empty: nobody may take an empty map for a free world.
+          const std::lock_guard<std::mutex> lock(waiting_mutex_);
+          ++clears_;
+          for (const std::unique_ptr<Sensor>& sensor : sensors_)
+            sensor->record.forget();
+        }
+        response.scene_revision = map_.clear();
+      });
 }
 
-/// The first sensor that has been silent for too long. Empty: there is none.
+/// The first fault of a sensor. Empty: there is none.
 std::string Sensors::octomapFault()
 {
   const std::lock_guard<std::mutex> lock(waiting_mutex_);
   for (const std::unique_ptr<Sensor>& sensor : sensors_)
-    if (std::string fault = sensor->record.outdated(sensor->options.topic, sensor->options.max_silence); !fault.empty())
+    if (std::string fault = sensor->record.octomapFault(sensor->options.topic, sensor->options.max_silence);
+        !fault.empty())
       return fault;
   return "";
 }

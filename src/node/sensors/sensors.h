@@ -1,6 +1,7 @@
 #pragma once
 
 #include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -25,7 +26,8 @@ namespace gpu_planning_scene::core
 /// the newest measurement of each sensor in turn, beside the checks. A measurement that a newer one replaces before its
 /// turn is dropped and counted. A measurement whose frame tf does not know yet waits, and the other sensors go on.
 /// Publishes a status for each sensor on /diagnostics. While a sensor is silent for longer than
-/// SensorOptions::max_silence, snapshots of the store say so (Snapshot::octomap_fault). Thread-safe.
+/// SensorOptions::max_silence, or measured voxels found no room, snapshots of the store say so
+/// (Snapshot::octomap_fault). Thread-safe.
 class Sensors
 {
  public:
@@ -87,6 +89,7 @@ class Sensors
   std::mutex waiting_mutex_;
   std::condition_variable arrived_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
+  std::uint64_t clears_ = 0;  // calls of clear()
   bool stopping_ = false;
 
   Endpoints topics_;

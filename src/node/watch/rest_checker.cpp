@@ -163,14 +163,20 @@ void RestChecker::checkStart(const Snapshot& scene, const std::vector<Watched>& 
   if (is_over())
     throw Cancelled();
   state.free_for = 0.0;
-  state.collision_in = 0.0;
   state.brake_in = -std::numeric_limits<double>::infinity();
-  state.contacts.clear();
   const bool collides = verdict.colliding != kNoPair;
-  state.verdict = collides ? WatchState::COLLISION : WatchState::NOT_PROVEN;
-  state.message =
+  const std::string what =
       std::string("the way from the robot's measured state to its place on the trajectory ") +
       (collides ? "collides" : "is not proven free: bodies almost touch, or the proof needs too many checks");
+  if (!collides && state.verdict == WatchState::COLLISION)  // of the rest, which says more
+  {
+    addWarning(what, state.message);
+    return;
+  }
+  state.collision_in = 0.0;
+  state.contacts.clear();
+  state.verdict = collides ? WatchState::COLLISION : WatchState::NOT_PROVEN;
+  state.message = what;
   state.body_1 = collides ? scene.scene->bodyName(verdict.colliding[0]) : "";
   state.body_2 = collides ? scene.scene->bodyName(verdict.colliding[1]) : "";
 }

@@ -21,6 +21,7 @@ constexpr double kFresh = 0.25;     // seconds: values of joint_states count up 
 constexpr double kArrived = 0.01;   // radians or metres: a robot this near to the last row has reached it
 constexpr double kStands = 1e-3;    // radians or metres: a robot that moves by no more stands
 constexpr double kStopped = 1.0;    // seconds: a robot that stands for so long has stopped
+constexpr double kSetBack = 1.0;    // seconds: a clock that goes back by more is that of a simulation that begins again
 constexpr double kAtRequest = 0.5;  // seconds: a start this near to the request is that of the current state
 
 std::vector<double> timesOf(const WatchTrajectory::Request& request)
@@ -112,6 +113,12 @@ void addCurrentState(const Snapshot& scene, const ros::Time& now, Watched& watch
     throw Error("the first point is at " + std::to_string(first) +
                 " s, and the robot's state at the start is not "
                 "known; give a first point at 0 s");
+  std::vector<int> others;
+  for (int variable = 0; variable < static_cast<int>(scene.state.size()); ++variable)
+    if (std::count(trajectory.columns.begin(), trajectory.columns.end(), variable) == 0)
+      others.push_back(variable);
+  if (const std::string fault = scene.endedVariable(others); !fault.empty())
+    throw Error("the first point is at " + std::to_string(first) + " s, and " + fault + "; give a first point at 0 s");
   const std::vector<double> values = valuesOf(trajectory, scene.state);
   trajectory.rows.seconds.insert(trajectory.rows.seconds.begin(), 0.0);
   trajectory.rows.values.insert(trajectory.rows.values.begin(), values.begin(), values.end());
@@ -187,15 +194,17 @@ void findPlace(const Snapshot& scene, const ros::Time& now, Watched& watched)
   const std::vector<double> values = valuesOf(trajectory, scene.state);
   if (watched.follows)
   {
-    // A clock that goes back is that of a simulation that begins again.
-    const double before = now < watched.looked_at ? 0.0 : watched.time;
+    const double before = (watched.looked_at - now).toSec() > kSetBack ? 0.0 : watched.time;
     const Progress progress = progressFrom(robot, trajectory, values, before);
     watched.time = progress.time;
     watched.deviation = progress.deviation;
     watched.age = age;
     const std::size_t last_part = std::max<std::size_t>(trajectory.rows.seconds.size(), 2) - 2;
-    watched.has_ended = by_clock >= end && progress.time >= trajectory.rows.seconds[last_part] &&
-                        deviationAt(robot, trajectory, values, end) <= kArrived;
+    const double from_end = deviationAt(robot, trajectory, values, end);
+    // Controllers stop within a tolerance of the goal.
+    watched.has_ended =
+        by_clock >= end && progress.time >= trajectory.rows.seconds[last_part] &&
+        (from_end <= kArrived || (from_end <= watched.max_deviation && standsFor(values, now, watched) >= kStopped));
   }
   else
   {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <numeric>
+#include <optional>
 #include <string>
 
 #include "gpu_planning_scene/error.h"
@@ -89,9 +90,10 @@ Place placeOf(const std::vector<double>& seconds, double time)
 }
 
 /// Whether a robot that is not quite at the turns after `place` is already past them: a controller cuts turns short.
-/// `values`: of the robot. `turn`: the time of the first row after `place`.
+/// `values`: of the robot. `turn`: the time of the first row after `place`. `cut`: the place from which turns are cut
+/// short, at or before `place`.
 bool hasTurned(const RobotModel& robot, const WatchedTrajectory& trajectory, const std::vector<double>& values,
-               double place, std::vector<double>::const_iterator turn)
+               double place, double cut, std::vector<double>::const_iterator turn)
 {
   const std::vector<double>& seconds = trajectory.rows.seconds;
   const Differences difference(robot, trajectory);
@@ -99,12 +101,13 @@ bool hasTurned(const RobotModel& robot, const WatchedTrajectory& trajectory, con
   for (auto next = std::next(turn); next != seconds.end(); ++turn, ++next)
   {
     const std::vector<double> corner = rowAt(robot, trajectory, *turn);
-    if (deviationAt(robot, trajectory, corner, place) > kCutTurn)
+    if (deviationAt(robot, trajectory, corner, cut) > kCutTurn)
       return false;
     const std::vector<double> along = difference(corner, rowAt(robot, trajectory, *next));
     const double squared = product(along, along);
     const double share = squared > 0.0 ? product(difference(corner, values), along) / squared : 0.0;
-    if (deviationAt(robot, trajectory, values, *turn + std::clamp(share, 0.0, 1.0) * (*next - *turn)) < deviation)
+    if (share > 0.0 &&
+        deviationAt(robot, trajectory, values, *turn + std::min(share, 1.0) * (*next - *turn)) < deviation)
       return true;
   }
   return false;
@@ -166,6 +169,7 @@ Progress progressFrom(const RobotModel& robot, const WatchedTrajectory& trajecto
   const std::vector<double>& seconds = trajectory.rows.seconds;
   double time = std::max(from, seconds.front());
   std::vector<double> row = rowAt(robot, trajectory, time);
+  std::optional<double> cut;  // the place on the trajectory from which turns are cut short
   for (auto next = std::upper_bound(seconds.begin(), seconds.end(), time); next != seconds.end(); ++next)
   {
     const std::vector<double> end = rowAt(robot, trajectory, *next);
@@ -173,7 +177,11 @@ Progress progressFrom(const RobotModel& robot, const WatchedTrajectory& trajecto
     const double squared = product(along, along);
     const double share = squared > 0.0 ? product(difference(row, values), along) / squared : 1.0;
     const double place = time + std::clamp(share, 0.0, 1.0) * (*next - time);
-    if (share < 1.0 && !hasTurned(robot, trajectory, values, place, next))
+    if (share < 1.0)
+      cut = cut.value_or(place);
+    else
+      cut.reset();
+    if (cut && !hasTurned(robot, trajectory, values, place, *cut, next))
     {
       time = place;
       break;

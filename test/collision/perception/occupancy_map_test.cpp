@@ -377,6 +377,72 @@ TEST_F(OccupancyMapOfACamera, KeepsThePartsOfAVoxelThatTheRobotDoesNotTouch)
   EXPECT_EQ(whole, map.cubes(scene_, nullptr).cubes.size()) << "the robot's place is not known";
 }
 
+TEST_F(OccupancyMapOfACamera, LetsTheRobotLeaveAVoxelByItsPadding)
+{
+  const double padding = 0.02;
+  scene_.link_padding = {padding, padding};
+  const auto cubes_at = [this](OccupancyMap& map, const Vector3d& tip)
+  {
+    placeTip(tip);
+    return map.cubes(scene_, state_.data());
+  };
+  /// Whether the tip meets a cube on its way from one place to another one.
+  const auto meets = [this](const std::vector<PlacedShape>& cubes, const Vector3d& tip)
+  {
+    placeTip(tip);
+    return touchesRobot(scene_, state_, cubes);
+  };
+  OccupancyMap map(options_);
+  see(map, 4.05F, 2.05F);
+  // Its front is at 2.03 m, and the voxels go from 2 to 2.1 m. Its upper end is 5 mm below voxels that it does not
+  // touch.
+  const Vector3d inside{1.53, -0.005, 0.0};
+  const VoxelCubes touched = cubes_at(map, inside);
+  EXPECT_FALSE(meets(touched.cubes, inside + Vector3d(0.0, padding, 0.0))) << "voxels beside those that it touches";
+  // On its way out, its front is 5 mm before the voxels.
+  const Vector3d outside{1.495, -0.005, 0.0};
+  const VoxelCubes left = cubes_at(map, outside);
+  EXPECT_FALSE(left.are_whole);
+  EXPECT_FALSE(meets(left.cubes, outside + Vector3d(padding, 0.0, 0.0)));
+  EXPECT_TRUE(cubes_at(map, {1.47, -0.005, 0.0}).are_whole) << "it has left";
+  EXPECT_TRUE(cubes_at(map, outside).are_whole) << "coming from outside, it is too near to whole voxels";
+}
+
+TEST_F(OccupancyMapOfACamera, KeepsLargerPartsWhereTheSceneHasNoRoomForSmallOnes)
+{
+  OccupancyMap unlimited(options_);
+  see(unlimited, 4.05F, 2.05F);
+  placeTip({1.53, 0.0, 0.0});
+  const std::size_t parts = unlimited.cubes(scene_, state_.data()).cubes.size();
+  for (const std::size_t limit : {unlimited.size() * 10 / 9 + 1, parts - 1, parts})
+  {
+    options_.max_voxels = limit;
+    OccupancyMap map(options_);
+    EXPECT_EQ(0u, see(map, 4.05F, 2.05F));
+    const VoxelCubes cubes = map.cubes(scene_, state_.data());
+    EXPECT_LE(cubes.cubes.size(), limit);
+    EXPECT_FALSE(cubes.are_whole);
+    EXPECT_EQ(limit < parts, touchesRobot(scene_, state_, cubes.cubes)) << "no part is given up";
+  }
+}
+
+TEST_F(OccupancyMapOfACamera, SplitsNoVoxelsThatAnOctreeOfSmallerCubesDoesNotReach)
+{
+  OccupancyMap map(options_);
+  see(map, 4.05F, 2.05F);
+  placeTip({1.53, 0.0, 0.0});
+  EXPECT_FALSE(touchesRobot(scene_, state_, map.cubes(scene_, state_.data()).cubes));
+  SensorView far = view_;
+  far.sensor.translation().x() = 1000.0;  // the octree of quarters reaches 819 m
+  map.add(std::vector<Eigen::Vector3f>{{1.0F, 0.0F, 0.0F}}, far, scene_, state_.data());
+  const VoxelCubes cubes = map.cubes(scene_, state_.data());
+  EXPECT_TRUE(touchesRobot(scene_, state_, cubes.cubes));
+  double smallest = 1.0;
+  for (const PlacedShape& cube : cubes.cubes)
+    smallest = std::min(smallest, std::get<Box>(cube.shape).size.x());
+  EXPECT_EQ(0.05, smallest);
+}
+
 TEST_F(OccupancyMapOfACamera, LeavesOutNamedObjectsAndAnObjectThatIsAttached)
 {
   scene_.objects = {boxAt("part", {2.25, 0.0, 0.0}, {0.4, 1.0, 1.0})};
@@ -433,7 +499,7 @@ TEST_F(OccupancyMapOfACamera, TakesTheNearestVoxelsWhenThereIsNoRoomForAll)
   EXPECT_EQ(0u, see(map, 2.05F, 2.05F));
   const std::size_t before = map.size();
   EXPECT_GT(see(map, 4.05F, 1.05F), 0u);
-  EXPECT_EQ(700u, map.size());
+  EXPECT_EQ(630u, map.size()) << "a tenth of the room is for parts of voxels";
   EXPECT_TRUE(isOccupied(map, {1.05, 0.05, 0.05})) << "a new obstacle near the camera";
   EXPECT_LT(before, 700u);
   see(map, 20.0F, 20.0F);
@@ -444,12 +510,12 @@ TEST_F(OccupancyMapOfACamera, AFullMapGivesFarVoxelsUpForANearObstacle)
 {
   OccupancyMap whole(options_);
   see(whole, 3.05F, 3.05F);
-  options_.max_voxels = whole.size();
+  options_.max_voxels = 10 * whole.size() / 9 + 1;
   OccupancyMap map(options_);
   EXPECT_EQ(0u, see(map, 3.05F, 3.05F));
   EXPECT_GT(see(map, 3.05F, 1.05F), 0u);
   EXPECT_TRUE(isOccupied(map, {1.05, 0.05, 0.05}));
-  EXPECT_EQ(options_.max_voxels, map.size());
+  EXPECT_EQ(options_.max_voxels - options_.max_voxels / 10, map.size());
 }
 
 TEST_F(OccupancyMapOfACamera, RefusesWrongArguments)

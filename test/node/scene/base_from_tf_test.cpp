@@ -141,13 +141,20 @@ TEST_F(BaseByTf, ThatIsOldOrLostIsUsedWithAWarning)
   now_ += 2 * kSecond;
   EXPECT_NE(store_->snapshot().assumedBase({}).find("is 2.500000 s old"), std::string::npos)
       << store_->snapshot().assumedBase({});
+  EXPECT_EQ("", store_->snapshot().endedVariable());
+  now_ += kSecond;
+  EXPECT_EQ("tf has brought no pose of the robot's base for 3.5 s, so the robot may be anywhere",
+            store_->snapshot().endedVariable());
+  EXPECT_EQ("", store_->snapshot().endedVariable(virtualVariables(*robot_))) << "a trajectory moves it";
   EXPECT_EQ("", store_->snapshot().assumedBase(virtualVariables(*robot_))) << "the request has its own value";
   expectRootAt(poseAt(1.0, 0.0, 0.0));
   poses_.clear();
   expectRootAt(poseAt(1.0, 0.0, 0.0));
   EXPECT_NE(store_->snapshot().assumedBase({}).find("has lost the transform"), std::string::npos);
+  EXPECT_NE("", store_->snapshot().endedVariable());
   poses_[0] = poseAt(2.0, 0.0, 0.0);  // a static transform has no time
   EXPECT_EQ("", store_->snapshot().assumedBase({}));
+  EXPECT_EQ("", store_->snapshot().endedVariable());
   expectRootAt(poseAt(2.0, 0.0, 0.0));
 }
 

@@ -112,6 +112,8 @@ class SensorsOfANode : public RunningNode
         std::memcpy(image.data.data() + i * sizeof(pixel), &pixel, sizeof(pixel));
       }
     }
+    if (is_covered_)
+      std::fill(image.data.begin(), image.data.end(), std::uint8_t{0});
     images_.publish(image);
   }
 
@@ -203,6 +205,7 @@ class SensorsOfANode : public RunningNode
   std::optional<ros::Time> stamp_;              // of the images; no value: now
   std::map<std::string, std::uint8_t> levels_;  // of the sensors' statuses
   std::string encoding_ = "32FC1";
+  bool is_covered_ = false;  // the camera's lens
 };
 
 TEST_F(SensorsOfANode, ABoxBeforeTheCameraBlocksTheRobotUntilItIsGone)
@@ -392,6 +395,24 @@ TEST_F(SensorsOfANode, ASilentSensorIsNamedInAnswersAndMakesAWatchUnknown)
   EXPECT_TRUE(call<WatchTrajectory>("watch_trajectory", request).success);
 }
 
+TEST_F(SensorsOfANode, AClearedOctomapIsNotKnownToBeRightUntilTheNextMeasurements)
+{
+  const auto both_see = [this](const auto& condition)
+  {
+    return seesUntil(
+        [&]
+        {
+          publishEmptyCloud();
+          return condition();
+        });
+  };
+  EXPECT_TRUE(both_see([&] { return check(free_state).message.empty(); }));
+  ASSERT_TRUE(call<Clear>("clear_octomap", {}).success);
+  EXPECT_NE(std::string::npos, check(free_state).message.find(" was used since the octomap was cleared"))
+      << check(free_state).message;
+  EXPECT_TRUE(both_see([&] { return check(free_state).message.empty(); }));
+}
+
 TEST_F(SensorsOfANode, CloudsOfAScannerAreInTheSameMap)
 {
   sensor_msgs::PointCloud2 cloud = emptyCloud();
@@ -426,6 +447,11 @@ TEST_F(SensorsOfANode, WrongMeasurementsAreCountedAndChangeNothing)
   EXPECT_EQ(revision, scene().scene_revision);
   EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::ERROR, levels_[topic]) << "the octomap does not follow the camera";
   encoding_ = "32FC1";
+  is_covered_ = true;
+  const int wrong = std::stoi(statusOf(topic, "rejected"));
+  EXPECT_TRUE(seesUntil([&] { return std::stoi(statusOf(topic, "rejected")) > wrong + 3; }));
+  EXPECT_EQ(revision, scene().scene_revision);
+  is_covered_ = false;
   const int used = std::stoi(statusOf(topic, "used"));
   EXPECT_TRUE(seesUntil([&] { return std::stoi(statusOf(topic, "used")) > used; }));
   EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::OK, levels_[topic]);

@@ -240,6 +240,21 @@ TEST(ProgressFrom, ATurningPointThatTheRobotDoesNotQuiteReachIsPassedOnTheWayBac
   expectProgress(progressOn({{0.0, 1.0, 5.0, 6.0}, {0.0, 1.0, 1.0, 0.0}}, 0.95, 0.996), 5.05, 0.0);
 }
 
+TEST(ProgressFrom, ARobotThatIsAheadInOneJointSkipsNoMotionOfAnotherJoint)
+{
+  // One cart hardly moves. The other one goes 4 cm forth and back, with a row each 8 mm.
+  const auto scene = crossing();
+  WatchedTrajectory trajectory;
+  trajectory.columns = {scene->robot->variableIndex("east"), scene->robot->variableIndex("north")};
+  for (int row = 0; row <= 10; ++row)
+  {
+    trajectory.rows.seconds.push_back(row);
+    trajectory.rows.values.push_back(0.001 * row);
+    trajectory.rows.values.push_back(0.008 * std::min(row, 10 - row));
+  }
+  EXPECT_LT(progressFrom(*scene->robot, trajectory, {0.05, 0.0}, 0.0).time, 2.0);
+}
+
 TEST(ProgressFrom, ARobotThatStandsAtTheStartOfALoopStaysThere)
 {
   expectProgress(progressOn({{0.0, 1.0, 2.0, 3.0}, {0.0, 1.0, -1.0, 0.0}}, 1e-5, 0.0), 1e-5, 0.0);
