@@ -67,8 +67,6 @@ class SpeedLimiter:
         rospy.Subscriber("joint_states", JointState, self.take_values, queue_size=10)
         rospy.Subscriber("command", JointState, self.take_command, queue_size=1)
         self.checked = None  # the command that is checked now, and the steady time since when
-        # No timer of rospy: it stands with a simulated clock.
-        threading.Thread(target=self.stop_while_waiting, daemon=True).start()
 
     def take_values(self, message):
         arrival = time.monotonic()  # the ROS clock of a simulation may go back
@@ -93,12 +91,16 @@ class SpeedLimiter:
 
     def stop_while_waiting(self):
         """The call of a service has no time limit: a node that hangs must not leave the robot at its last velocity."""
-        while not self.ros.is_shutdown():
+        checked = self.checked
+        if checked and time.monotonic() - checked[1] > OLDEST:
+            self.ros.logwarn_throttle(1, f"limit_speed.py: stopped: the node has not answered for {OLDEST} s")
+            self.publish(checked[0], 0.0)
+
+    def watch_calls(self):
+        """Calls stop_while_waiting() for ever. A timer of rospy would stand with a simulated clock."""
+        while True:
             time.sleep(OLDEST / 5)
-            checked = self.checked
-            if checked and time.monotonic() - checked[1] > OLDEST:
-                self.ros.logwarn(f"limit_speed.py: stopped: the node has not answered for {OLDEST} s")
-                self.publish(checked[0], 0.0)
+            self.stop_while_waiting()
 
     def joints_of_group(self):
         """The joints that ~group moves; none without a group."""
@@ -161,7 +163,8 @@ def main():
     argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
                             usage="limit_speed.py [NAME:=VALUE ...]").parse_args(rospy.myargv()[1:])
     rospy.init_node("limit_speed")
-    SpeedLimiter()
+    limiter = SpeedLimiter()
+    threading.Thread(target=limiter.watch_calls, daemon=True).start()
     rospy.spin()
 
 

@@ -67,7 +67,7 @@ class Node:
             get_param=lambda name, default: self.parameters.get(name, default), get_time=lambda: self.ros,
             wait_for_service=lambda name: None, ServiceProxy=lambda *_: self.check, Subscriber=mock.Mock(),
             Publisher=lambda *_, **__: types.SimpleNamespace(publish=lambda message: self.published.append(message)),
-            logwarn_throttle=lambda period, text: self.log.append(text), Duration=float, Timer=mock.Mock())
+            logwarn_throttle=lambda period, text: self.log.append(text))
         modules = {"rospy": rospy, "sensor_msgs": mock.Mock(),
                    "sensor_msgs.msg": types.SimpleNamespace(JointState=types.SimpleNamespace),
                    "gpu_planning_scene": mock.Mock(), "gpu_planning_scene.srv": mock.Mock(),
@@ -134,11 +134,11 @@ class Stops(unittest.TestCase):
         def hang():
             for _ in range(4):
                 self.node.pass_time(0.1)
-                self.node.limiter.stop_while_waiting(None)
+                self.node.limiter.stop_while_waiting()
             self.hung = [message.velocity for message in self.node.published]
         self.node.send(self.ARM)
         self.assert_passes(*self.ARM)
-        self.node.limiter.stop_while_waiting(None)
+        self.node.limiter.stop_while_waiting()
         self.assertEqual(1, len(self.node.published), "no call waits")
         self.node.while_checked = hang
         self.assert_stops(self.ARM, "the node has not answered for 0.25 s")

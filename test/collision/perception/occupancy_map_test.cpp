@@ -418,7 +418,9 @@ TEST_F(OccupancyMapOfACamera, KeepsLargerPartsWhereTheSceneHasNoRoomForSmallOnes
   {
     options_.max_voxels = limit;
     OccupancyMap map(options_);
+    placeTip({100.0, 100.0, 100.0});
     EXPECT_EQ(0u, see(map, 4.05F, 2.05F));
+    placeTip({1.53, 0.0, 0.0});
     const VoxelCubes cubes = map.cubes(scene_, state_.data());
     EXPECT_LE(cubes.cubes.size(), limit);
     EXPECT_FALSE(cubes.are_whole);
