@@ -414,7 +414,7 @@ TEST_F(OccupancyMapOfACamera, KeepsLargerPartsWhereTheSceneHasNoRoomForSmallOnes
   see(unlimited, 4.05F, 2.05F);
   placeTip({1.53, 0.0, 0.0});
   const std::size_t parts = unlimited.cubes(scene_, state_.data()).cubes.size();
-  for (const std::size_t limit : {unlimited.size() * 10 / 9 + 1, parts - 1, 2 * parts})
+  for (const std::size_t limit : {unlimited.size() * 10 / 9 + 1, parts - 1, 10 * parts})
   {
     options_.max_voxels = limit;
     OccupancyMap map(options_);
