@@ -72,7 +72,8 @@ struct OccupancyMapOptions
 struct VoxelCubes
 {
   std::vector<PlacedShape> cubes;
-  bool are_whole = true;  ///< false: the robot is in a voxel or has just left it, so a part of it is missing
+  bool are_whole = true;      ///< false: the robot is in or beside a voxel, so a part of it is missing
+  bool has_all_parts = true;  ///< false: the robot touches parts that could not be made smaller
 };
 
 /// The voxels that depth cameras and laser scanners have found occupied. Free space is not stored, because the scene

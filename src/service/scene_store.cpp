@@ -89,8 +89,9 @@ std::string Snapshot::endedVariable(const std::vector<int>& others) const
     return "";
   for (const int variable : virtualVariables(*scene->robot))
     if (std::count(others.begin(), others.end(), variable) == 0)
-      return "tf has brought no pose of the robot's base for " + numberText(base.age) +
-             " s, so the robot may be anywhere";
+      return (std::isfinite(base.age) ? "tf has brought no pose of the robot's base for " + numberText(base.age) + " s"
+                                      : std::string("tf has lost the pose of the robot's base")) +
+             ", so the robot may be anywhere";
   return "";
 }
 
@@ -176,6 +177,8 @@ SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits 
 
 Snapshot SceneStore::snapshot() const
 {
+  // Asked before and after the scene is read: a fault that begins or ends meanwhile counts.
+  std::string fault = octomapFault();
   Snapshot now;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -190,10 +193,14 @@ Snapshot SceneStore::snapshot() const
            stamps_};
   }
   now.base = assumeBase(0, now.known, now.state);
-  const std::lock_guard<std::mutex> lock(octomap_mutex_);
-  if (octomap_fault_)
-    now.octomap_fault = octomap_fault_();
+  now.octomap_fault = fault.empty() ? octomapFault() : std::move(fault);
   return now;
+}
+
+std::string SceneStore::octomapFault() const
+{
+  const std::lock_guard<std::mutex> lock(octomap_mutex_);
+  return octomap_fault_ ? octomap_fault_() : "";
 }
 
 void SceneStore::setOctomapFault(std::function<std::string()> find)

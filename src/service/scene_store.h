@@ -164,6 +164,7 @@ class SceneStore
   Applied make(const SceneChange& change, const Lookup& lookup, bool keeps_octomap);
   std::uint64_t replace(PlanningScene scene, const std::map<std::string, double>& variables, std::uint64_t revision);
   void keep(const std::shared_ptr<const PlanningScene>& replaced);
+  std::string octomapFault() const;
   AssumedBase assumeBase(std::int64_t stamp, const std::vector<bool>& known, std::vector<double>& state) const;
 
   std::mutex changes_;        // held during a change

@@ -80,8 +80,11 @@ double StateHistory::valueAt(const Values& values, std::int64_t stamp)
   const auto after = std::lower_bound(by_stamp.begin(), by_stamp.end(), stamp,
                                       [](const Stamped& other, std::int64_t wanted) { return other.stamp < wanted; });
   if (after == by_stamp.begin() && values.forgot && after->stamp != stamp)
-    throw Error("the robot's state of " + std::to_string((by_stamp.back().stamp - stamp) / 1'000'000'000) +
-                " s ago is not available; the last " + std::to_string(kKept / 1'000'000'000) + " s are kept");
+    throw Error("the value of '" + values.name + "' of " +
+                numberText(1e-9 * static_cast<double>(by_stamp.back().stamp - stamp)) +
+                " s before its newest one is not available: values are kept for " +
+                std::to_string(kKept / 1'000'000'000) +
+                " s, and only until a client or a message without a stamp sets the joint");
   const bool before_is_nearer =
       after == by_stamp.end() || (after != by_stamp.begin() && after->stamp - stamp >= stamp - std::prev(after)->stamp);
   const Stamped& nearest = before_is_nearer ? *std::prev(after) : *after;

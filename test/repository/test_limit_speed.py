@@ -144,6 +144,14 @@ class Stops(unittest.TestCase):
         self.assert_stops(self.ARM, "the node has not answered for 0.25 s")
         self.assertEqual([[1.0, 1.0], [0.0, 0.0], [0.0, 0.0]], self.hung)
 
+    def test_calls_are_watched_without_the_clock_of_ros(self):
+        looks = []
+        self.node.limiter.stop_while_waiting = lambda: looks.append(1)
+        waits = mock.Mock(side_effect=[None, None, KeyboardInterrupt])
+        with mock.patch.object(limit_speed.time, "sleep", waits, create=True), self.assertRaises(KeyboardInterrupt):
+            self.node.limiter.watch_calls()
+        self.assertEqual(2, len(looks))
+
     def test_a_joint_outside_the_group_is_not_moved(self):
         self.node = Node(group="arm")
         self.node.send(["torso", *self.ARM])

@@ -334,6 +334,7 @@ VoxelCubes OccupancyMap::Impl::cubes(const PlanningScene& scene, const double* s
       // The scene takes no smaller parts. The robot collides with these ones, which is better than none.
       for (PlacedShape& cube : parts.cubesAt(near))
         visible.cubes.push_back(std::move(cube));
+      visible.has_all_parts = near.empty();
       break;
     }
     std::vector<Vector3d> centres = parts.eighthsOf(near);

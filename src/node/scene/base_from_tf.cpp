@@ -131,7 +131,9 @@ AssumedBase BaseFromTf::newest()
     if (!newest_)
       return {{}, "tf has no transform " + frames()};
     AssumedBase base = valuesAt(*joint_, newest_->pose);
-    base.age = newest_->stamp != 0 ? ageOf(*newest_) : std::numeric_limits<double>::infinity();
+    base.age = ageOf(*newest_);
+    if (newest_->stamp == 0 || base.age < 0.0)  // it was static, or from before a simulation began again
+      base.age = std::numeric_limits<double>::infinity();
     base.warning = "the robot's pose comes from tf, which has lost the transform " + frames() +
                    "; the last one that it had is used";
     return base;

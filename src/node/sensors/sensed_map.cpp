@@ -47,15 +47,17 @@ SensedMap::~SensedMap()
   store_.setListener(this, {});
 }
 
-std::size_t SensedMap::add(const Measurement& measurement, const SensorView& view, const std::vector<double>& state)
+void SensedMap::add(const Measurement& measurement, const SensorView& view, const std::vector<double>& state,
+                    const std::function<void(std::size_t voxels)>& lose)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   followObjects();
   const Snapshot now = store_.snapshot();
   const std::size_t without_room = std::visit(
       [&](const auto& measured) { return map_.add(measured, view, *now.scene, state.data(), excluded_); }, measurement);
+  if (without_room > 0 && lose)
+    lose(without_room);
   publish();
-  return without_room;
 }
 
 std::uint64_t SensedMap::exclude(const std::set<std::string>& objects)
@@ -139,6 +141,10 @@ std::uint64_t SensedMap::publish()
   hides_voxels_ = true;  // until the scene has the voxels: an error must not end the tries
   const Snapshot now = store_.snapshot();
   VoxelCubes visible = map_.cubes(*now.scene, now.allKnown() ? now.state.data() : nullptr);
+  if (!visible.has_all_parts)
+    ROS_WARN_STREAM_THROTTLE(10.0,
+                             "the robot touches voxels of the octomap, and the scene has no room for their parts that "
+                             "it does not touch (~limits/voxels), or a voxel is too far away for them; it collides");
   replaceObject(store_, kOctomapId, std::move(visible.cubes));
   hides_voxels_ = !visible.are_whole || !now.allKnown();
   return store_.snapshot().scene->revision;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -29,9 +30,10 @@ class SensedMap
   SensedMap& operator=(const SensedMap&) = delete;
 
   /// Puts a measurement into the map, and the map into the scene. `state`: one value per variable, of the time of the
-  /// measurement. Returns the number of voxels that found no room, see OccupancyMap::add. Throws the errors of
-  /// OccupancyMap::add and SceneStore::sense.
-  std::size_t add(const Measurement& measurement, const SensorView& view, const std::vector<double>& state);
+  /// measurement. `lose`: gets the number of voxels that found no room (see OccupancyMap::add), if there are any,
+  /// before the scene lacks them. Throws the errors of OccupancyMap::add and SceneStore::sense.
+  void add(const Measurement& measurement, const SensorView& view, const std::vector<double>& state,
+           const std::function<void(std::size_t voxels)>& lose = {});
 
   /// From now on, these objects are left out of the map, and no others. Their voxels are removed. Returns the revision
   /// of the scene without them. Throws Error if the scene has no such object.

@@ -18,13 +18,8 @@ constexpr double kShownLoss = 10.0;      // seconds: statuses are published each
 constexpr double kLoggedSilence = 5.0;   // seconds: drivers of cameras may start after the node
 }  // namespace
 
-void SensorRecord::use(double its_lag, const std::string& lost)
+void SensorRecord::use(double its_lag)
 {
-  if (!lost.empty())
-  {
-    loss = lost;
-    lost_at = ros::SteadyTime::now();
-  }
   ++used;
   has_measured = true;
   used_at = ros::SteadyTime::now();
@@ -34,20 +29,27 @@ void SensorRecord::use(double its_lag, const std::string& lost)
   longest_lag = std::max(longest_lag, lag);
 }
 
+void SensorRecord::lose(const std::string& what)
+{
+  loss = what;
+  lost_at = ros::SteadyTime::now();
+}
+
+void SensorRecord::forget()
+{
+  has_measured = false;
+  loss.clear();
+}
+
 void SensorRecord::reject(const std::string& why)
 {
   ++rejected;
   fault = why;
 }
 
-bool SensorRecord::hasLost() const
-{
-  return !loss.empty() && (ros::SteadyTime::now() - lost_at).toSec() < kShownLoss;
-}
-
 std::string SensorRecord::octomapFault(const std::string& topic, double seconds) const
 {
-  if (hasLost())
+  if (!loss.empty())
     return "sensor " + topic + ": " + loss;
   const double silent = (ros::SteadyTime::now() - used_at).toSec();
   if (seconds == 0.0 || (has_measured && silent <= seconds))
@@ -82,7 +84,7 @@ DiagnosticStatus SensorRecord::status(const std::string& topic)
     status.level = DiagnosticStatus::ERROR;
     status.message = "the octomap does not follow this sensor: " + fault;
   }
-  else if (hasLost())
+  else if (!loss.empty() && (ros::SteadyTime::now() - lost_at).toSec() < kShownLoss)
   {
     status.level = DiagnosticStatus::ERROR;
     status.message = loss;

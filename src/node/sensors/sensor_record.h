@@ -18,22 +18,23 @@ struct SensorRecord
   bool has_measured = false;                         ///< since the last call of forget(), or the start
   bool silence_is_logged = false;
   std::string fault;         ///< of the last measurement; empty if it was used
-  std::string loss;          ///< the last one, see use()
+  std::string loss;          ///< the last one, see lose(); empty: none since the octomap was cleared
   ros::SteadyTime lost_at;   ///< of `loss`
   double lag = 0.0;          ///< seconds from the stamp of the last used measurement to the scene with it
   double longest_lag = 0.0;  ///< since the last call of status()
 
-  /// Counts a measurement that is in the scene. `its_lag`: seconds, see `lag`. `lost`: which voxels are not in the
-  /// scene although they were measured, in one line, or empty.
-  void use(double its_lag, const std::string& lost);
+  /// Counts a measurement that is in the scene. `its_lag`: seconds, see `lag`.
+  void use(double its_lag);
+  /// Voxels are not in the scene although they were measured. `what`: one line.
+  void lose(const std::string& what);
   /// Counts a measurement that is not in the scene. `why`: one line.
   void reject(const std::string& why);
 
-  /// The octomap was cleared: nothing is known until the next measurement.
-  void forget() { has_measured = false; }
+  /// The octomap was cleared: nothing is known until the next measurement, and nothing is lost.
+  void forget();
 
   /// Why the octomap may lack what this sensor measures, in one line: no measurement was used in the last `seconds`, or
-  /// voxels were lost in the last 10 s. Otherwise empty. 0 seconds: a silent sensor is no fault.
+  /// voxels were lost. Otherwise empty. 0 seconds: a silent sensor is no fault.
   std::string octomapFault(const std::string& topic, double seconds) const;
 
   /// A line for the log if no measurement was used for so long that the user should look. Empty if one was used, or if
@@ -43,8 +44,5 @@ struct SensorRecord
   /// ERROR if the last measurement was rejected or voxels were lost in the last 10 s, WARN if no measurement was used
   /// for a second. Resets `longest_lag`.
   diagnostic_msgs::DiagnosticStatus status(const std::string& topic);
-
- private:
-  bool hasLost() const;
 };
 }  // namespace gpu_planning_scene::core

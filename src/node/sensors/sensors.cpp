@@ -33,24 +33,30 @@ double ageOf(const std_msgs::Header& header)
   return ros::Time::now().toSec() - header.stamp.toSec();
 }
 
-/// Throws Error for an image that sees nothing at all: it says nothing about the world, not even that it is empty.
-SensedMap::Measurement measuredOf(const sensor_msgs::Image& message, const PinholeCamera& camera)
+/// Throws Error for an image that shows nothing beyond `min_range` (metres), neither a thing nor the empty space up to
+/// the range: it says nothing about the world.
+SensedMap::Measurement measuredOf(const sensor_msgs::Image& message, const PinholeCamera& camera, double min_range)
 {
   DepthImage image = depthImageOf(message, camera);
-  if (std::all_of(image.depths.begin(), image.depths.end(),
-                  [](float depth) { return std::isnan(depth) || depth == 0.0F; }))
+  if (std::none_of(image.depths.begin(), image.depths.end(),
+                   [=](double depth) { return depth > 0.0 && depth >= min_range; }))
     throw Error(
-        "no pixel is measured (all are 0 or NaN); is the lens covered, or is everything beyond the sensor's range?");
+        "no pixel has a depth beyond the minimum range; is the lens covered, or is everything beyond the sensor's "
+        "range?");
   return image;
 }
 
 /// The same for a cloud. One without any points may come from a scanner whose rays meet nothing.
-SensedMap::Measurement measuredOf(const sensor_msgs::PointCloud2& message, std::size_t step)
+SensedMap::Measurement measuredOf(const sensor_msgs::PointCloud2& message, std::size_t step, double min_range)
 {
   std::vector<Eigen::Vector3f> points = pointsOf(message, step);
-  if (!points.empty() &&
-      std::none_of(points.begin(), points.end(), [](const auto& point) { return point.allFinite(); }))
-    throw Error("no point of the cloud is measured (none is finite); is the sensor covered?");
+  const auto is_measured = [=](const Eigen::Vector3f& point)
+  {
+    const double distance = point.cast<double>().norm();
+    return std::isfinite(distance) && distance > 0.0 && distance >= min_range;
+  };
+  if (!points.empty() && std::none_of(points.begin(), points.end(), is_measured))
+    throw Error("no point of the cloud is finite and beyond the minimum range; is the sensor covered?");
   return points;
 }
 
@@ -186,13 +192,12 @@ bool Sensors::take(Sensor& sensor)
     return false;
   const double waited = (ros::SteadyTime::now() - sensor.current->received).toSec();
   bool waits = false;
-  std::string loss;
   const Fault fault = faultOf(
       [&]
       {
         try
         {
-          loss = use(sensor);
+          use(sensor);
         }
         catch (const NotKnownYet&)
         {
@@ -205,23 +210,20 @@ bool Sensors::take(Sensor& sensor)
     return false;
   if (fault)
     topics_.refuse(sensor.options.topic, fault.message);
-  if (!loss.empty())
-    topics_.refuse(sensor.options.topic, loss);
   const std_msgs::Header header = headerOf(sensor.current->message);
   sensor.current.reset();
   const std::lock_guard<std::mutex> lock(waiting_mutex_);
   if (fault)
     sensor.record.reject(fault.message);
   else
-    sensor.record.use(header.stamp.isZero() ? 0.0 : ageOf(header), loss);
+    sensor.record.use(header.stamp.isZero() ? 0.0 : ageOf(header));
   if (clears != clears_)  // the measurement may be among what was cleared
     sensor.record.forget();
   return true;
 }
 
-/// Puts the current measurement of a sensor into the map, and the map into the scene. Returns what is lost there, in
-/// one line, or an empty text.
-std::string Sensors::use(const Sensor& sensor)
+/// Puts the current measurement of a sensor into the map, and the map into the scene.
+void Sensors::use(Sensor& sensor)
 {
   memory_.require();
   const SensorOptions& options = sensor.options;
@@ -252,15 +254,21 @@ std::string Sensors::use(const Sensor& sensor)
   view.padding = options.padding;
 
   const auto* image = std::get_if<sensor_msgs::Image>(&message);
-  const std::size_t without_room =
-      map_.add(image != nullptr ? measuredOf(*image, *camera)
-                                : measuredOf(std::get<sensor_msgs::PointCloud2>(message), options.step),
-               view, measured.state);
-  return without_room == 0
-             ? ""
-             : std::to_string(without_room) +
-                   " voxels are not in the scene, the farthest from the robot, because ~limits/voxels is reached; use "
-                   "larger voxels (~octomap_resolution), a shorter range or a region";
+  map_.add(image != nullptr ? measuredOf(*image, *camera, options.min_range)
+                            : measuredOf(std::get<sensor_msgs::PointCloud2>(message), options.step, options.min_range),
+           view, measured.state, [&](std::size_t lost) { noteLoss(sensor, lost); });
+}
+
+/// Called before the scene is published without these voxels, so that nobody takes their places for free.
+void Sensors::noteLoss(Sensor& sensor, std::size_t voxels)
+{
+  const std::string loss =
+      std::to_string(voxels) +
+      " voxels found no room in the scene, the farthest from the robot, because ~limits/voxels is reached; use larger "
+      "voxels (~octomap_resolution), a shorter range or a region, and then call ~clear_octomap";
+  topics_.refuse(sensor.options.topic, loss);
+  const std::lock_guard<std::mutex> lock(waiting_mutex_);
+  sensor.record.lose(loss);
 }
 
 ExcludeFromSensors::Response Sensors::exclude(const ExcludeFromSensors::Request& request)
@@ -276,15 +284,19 @@ Clear::Response Sensors::clear()
   return respond<Clear::Response>(
       [&](Clear::Response& response)
       {
-        {
-          // Before the map is empty: nobody may take an empty map for a free world.
-          const std::lock_guard<std::mutex> lock(waiting_mutex_);
-          ++clears_;
-          for (const std::unique_ptr<Sensor>& sensor : sensors_)
-            sensor->record.forget();
-        }
+        // Nobody may take an empty map for a free world: before it is empty, and after a measurement that came between.
+        forgetMeasurements();
         response.scene_revision = map_.clear();
+        forgetMeasurements();
       });
+}
+
+void Sensors::forgetMeasurements()
+{
+  const std::lock_guard<std::mutex> lock(waiting_mutex_);
+  ++clears_;
+  for (const std::unique_ptr<Sensor>& sensor : sensors_)
+    sensor->record.forget();
 }
 
 /// The first fault of a sensor. Empty: there is none.

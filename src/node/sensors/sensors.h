@@ -75,7 +75,9 @@ class Sensors
   void receive(Sensor& sensor, Message message);
   void run();
   bool take(Sensor& sensor);
-  std::string use(const Sensor& sensor);
+  void use(Sensor& sensor);
+  void noteLoss(Sensor& sensor, std::size_t voxels);
+  void forgetMeasurements();
   void publishStatus();
   std::string octomapFault();
 
@@ -89,7 +91,7 @@ class Sensors
   std::mutex waiting_mutex_;
   std::condition_variable arrived_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
-  std::uint64_t clears_ = 0;  // calls of clear()
+  std::uint64_t clears_ = 0;  // calls of forgetMeasurements()
   bool stopping_ = false;
 
   Endpoints topics_;

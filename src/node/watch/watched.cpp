@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/text/number_text.h"
 #include "collision/problem/state_validation.h"
@@ -97,6 +98,20 @@ double standsFor(const std::vector<double>& values, const ros::Time& now, Watche
     watched.stands_since = now;
   }
   return (now - watched.stands_since).toSec();
+}
+
+/// Whether all rows after a time are within this distance of the last row.
+bool isRestWithin(const RobotModel& robot, const WatchedTrajectory& trajectory, double time, double distance)
+{
+  const std::vector<double>& seconds = trajectory.rows.seconds;
+  const std::vector<double> end = rowAt(robot, trajectory, seconds.back());
+  return std::all_of(std::upper_bound(seconds.begin(), seconds.end(), time), seconds.end(),
+                     [&](double row) { return deviationAt(robot, trajectory, end, row) <= distance; });
+}
+
+bool isWholeWithin(const RobotModel& robot, const WatchedTrajectory& trajectory, double distance)
+{
+  return isRestWithin(robot, trajectory, -std::numeric_limits<double>::infinity(), distance);
 }
 
 /// A controller moves from the current state to a first point that is later than the start.
@@ -199,12 +214,15 @@ void findPlace(const Snapshot& scene, const ros::Time& now, Watched& watched)
     watched.time = progress.time;
     watched.deviation = progress.deviation;
     watched.age = age;
-    const std::size_t last_part = std::max<std::size_t>(trajectory.rows.seconds.size(), 2) - 2;
     const double from_end = deviationAt(robot, trajectory, values, end);
-    // Controllers stop within a tolerance of the goal.
+    const bool has_arrived = from_end <= kArrived && isRestWithin(robot, trajectory, progress.time, kArrived);
+    // Controllers stop within a tolerance of the goal. A robot that has never been far from it may still be at its
+    // start.
+    const bool may_have_arrived = from_end <= watched.max_deviation &&
+                                  isRestWithin(robot, trajectory, progress.time, watched.max_deviation) &&
+                                  !isWholeWithin(robot, trajectory, watched.max_deviation);
     watched.has_ended =
-        by_clock >= end && progress.time >= trajectory.rows.seconds[last_part] &&
-        (from_end <= kArrived || (from_end <= watched.max_deviation && standsFor(values, now, watched) >= kStopped));
+        by_clock >= end && (has_arrived || (may_have_arrived && standsFor(values, now, watched) >= kStopped));
   }
   else
   {

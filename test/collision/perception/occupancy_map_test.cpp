@@ -424,6 +424,7 @@ TEST_F(OccupancyMapOfACamera, KeepsLargerPartsWhereTheSceneHasNoRoomForSmallOnes
     const VoxelCubes cubes = map.cubes(scene_, state_.data());
     EXPECT_LE(cubes.cubes.size(), limit);
     EXPECT_FALSE(cubes.are_whole);
+    EXPECT_EQ(limit >= parts, cubes.has_all_parts);
     EXPECT_EQ(limit < parts, touchesRobot(scene_, state_, cubes.cubes)) << "no part is given up";
   }
 }

@@ -407,7 +407,10 @@ TEST_F(SensorsOfANode, AClearedOctomapIsNotKnownToBeRightUntilTheNextMeasurement
         });
   };
   EXPECT_TRUE(both_see([&] { return check(free_state).message.empty(); }));
+  ros::WallDuration(0.3).sleep();  // the last measurements are used
   ASSERT_TRUE(call<Clear>("clear_octomap", {}).success);
+  const auto whole = ros::topic::waitForMessage<PlanningSceneMessage>(name("monitored_planning_scene"), node_);
+  EXPECT_NE(std::string::npos, whole->octomap_fault.find(" was used since the octomap was cleared"));
   EXPECT_NE(std::string::npos, check(free_state).message.find(" was used since the octomap was cleared"))
       << check(free_state).message;
   EXPECT_TRUE(both_see([&] { return check(free_state).message.empty(); }));
@@ -459,6 +462,24 @@ TEST_F(SensorsOfANode, WrongMeasurementsAreCountedAndChangeNothing)
   EXPECT_TRUE(becomes(
       [&] { return !statusOf(topic, "used").empty() && levels_[topic] == diagnostic_msgs::DiagnosticStatus::WARN; }))
       << "the camera is silent";
+}
+
+TEST_F(SensorsOfANode, ACloudWithoutAMeasuredPointIsRejected)
+{
+  const std::string topic = "/scanner/points";
+  ASSERT_TRUE(becomes([&] { return !statusOf(topic, "rejected").empty(); }));
+  const int before = std::stoi(statusOf(topic, "rejected"));
+  sensor_msgs::PointCloud2 cloud = emptyCloud();
+  cloud.width = 100;
+  cloud.row_step = 1200;
+  cloud.data.resize(1200);  // zeros
+  EXPECT_TRUE(becomes(
+      [&]
+      {
+        cloud.header.stamp = ros::Time::now();
+        clouds_.publish(cloud);
+        return std::stoi(statusOf(topic, "rejected")) > before;
+      }));
 }
 
 TEST_F(SensorsOfANode, AWrongCameraInfoIsNotReplacedByAnOlderOne)

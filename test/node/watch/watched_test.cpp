@@ -76,6 +76,44 @@ TEST_F(WatchedCart, HasArrivedIfItStandsWithinItsDeviationFromTheEnd)
   EXPECT_TRUE(see(0.005, 10.1));
 }
 
+TEST_F(WatchedCart, HasArrivedAlsoBetweenCloseRowsBeforeTheEnd)
+{
+  request_.joint_trajectory.points.resize(2);
+  for (const double rest : {0.02, 0.005, 0.0})
+  {
+    trajectory_msgs::JointTrajectoryPoint& point = request_.joint_trajectory.points.emplace_back();
+    point.time_from_start = ros::Duration(5.0 - rest);
+    point.positions = {5.0 - rest};
+  }
+  Watched cart = watched();
+  const auto see = [&](double place, double seconds)
+  {
+    findPlace(at(place), kNow + ros::Duration(seconds), cart);
+    return cart.has_ended;
+  };
+  see(4.5, 4.5);
+  EXPECT_FALSE(see(4.97, 5.1));
+  EXPECT_TRUE(see(4.97, 6.2));
+  Watched other = watched();
+  cart = other;
+  see(4.5, 4.5);
+  EXPECT_TRUE(see(4.992, 5.1)) << "within 0.01 of the last row";
+}
+
+TEST_F(WatchedCart, HasNotArrivedWhereItMayStillBeAtItsStart)
+{
+  request_.joint_trajectory.points.resize(2);
+  request_.joint_trajectory.points[1].positions = {0.08};
+  Watched cart = watched();
+  for (const double seconds : {4.1, 6.0, 60.0})
+  {
+    findPlace(at(0.0), kNow + ros::Duration(seconds), cart);
+    EXPECT_FALSE(cart.has_ended) << seconds;
+  }
+  findPlace(at(0.075), kNow + ros::Duration(61.0), cart);
+  EXPECT_TRUE(cart.has_ended);
+}
+
 TEST_F(WatchedCart, BeginsAtTheCurrentStateOnlyIfThisIsMeasuredNow)
 {
   request_.joint_trajectory.points.erase(request_.joint_trajectory.points.begin());
