@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -15,6 +16,7 @@
 
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning/anytime_batch.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
 #include "model/model_testing.h"
@@ -167,6 +169,72 @@ TEST(PlanMotion, RepeatsAPathForASeed)
   EXPECT_EQ(path_of(7), path);
   path_of(0);
   EXPECT_EQ(path_of(7), path);
+}
+
+class KnownWay : public testing::Test
+{
+ protected:
+  KnownWay() { there.known_paths = known; }
+
+  /// The query of the way back. If known paths are not tried, its search checks many states.
+  PlanningQuery back() const
+  {
+    PlanningQuery turned = there;
+    std::swap(turned.start, turned.goals[0]);
+    return turned;
+  }
+
+  template <class Planner>
+  static std::uint64_t statesOf(const PlanningQuery& query)
+  {
+    const PlanningResult result = plan<Planner>(kTwoGaps, query);
+    EXPECT_EQ(result.status, PlanningStatus::Solved) << result.message;
+    EXPECT_EQ(result.waypoints.back(), query.goals[0]);
+    return result.states_checked;
+  }
+
+  inline static const std::vector<Wall> kTwoGaps = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
+  std::shared_ptr<KnownPaths> known = std::make_shared<KnownPaths>(4);
+  PlanningQuery there = query({-1.0, 0.0}, {{1.0, 0.0}});
+};
+
+TEST_F(KnownWay, IsFoundAgainWithFewChecks)
+{
+  const std::uint64_t first = statesOf<BatchRrtConnect>(there);
+  ASSERT_EQ(known->of("plane").size(), 1u);
+  EXPECT_LT(2 * statesOf<BatchRrtConnect>(back()), first);
+  EXPECT_EQ(known->of("plane").size(), 1u);
+}
+
+TEST_F(KnownWay, IsAlsoTriedByThePlannerThatShortensPaths)
+{
+  statesOf<BatchRrtConnect>(there);
+  PlanningQuery turned = back();
+  turned.seconds = 0.2;
+  const PointRobot robot(kTwoGaps);
+  const PlanningResult result = planMotion(robot.scene(), robot.checker(), turned, PlannerFactoryOf<AnytimeBatch>());
+  EXPECT_EQ(result.status, PlanningStatus::Solved) << result.message;
+}
+
+TEST_F(KnownWay, DoesNotChangeThePathOfASeed)
+{
+  there.seed = 7;
+  const auto first = plan<BatchRrtConnect>(kTwoGaps, there).waypoints;
+  known->add("plane", {there.start, {-1.0, 1.9}, {0.0, 1.9}, {0.0, -1.9}, {1.0, -1.9}, there.goals[0]});
+  EXPECT_EQ(plan<BatchRrtConnect>(kTwoGaps, there).waypoints, first);
+}
+
+TEST_F(KnownWay, IsNotOneThatEndsElsewhere)
+{
+  there.seconds = 0.05;
+  EXPECT_NE(plan<BatchRrtConnect>(kWall, there).status, PlanningStatus::Solved);
+  EXPECT_TRUE(known->of("plane").empty());
+}
+
+TEST_F(KnownWay, OfAnotherRobotIsRefused)
+{
+  known->add("plane", {{0.0}, {1.0}});
+  EXPECT_THROW(plan<BatchRrtConnect>({}, there), Error);
 }
 
 TEST(PlanMotion, CountsTheLookAtStartAndGoals)

@@ -26,6 +26,9 @@ struct Workshop
   SceneConverter converter;
   core::CheckerPool checkers;
   core::PlannerLoader plugins;
+  const std::shared_ptr<core::KnownPaths> known_paths = std::make_shared<core::KnownPaths>(kKnownPaths);
+
+  static constexpr std::size_t kKnownPaths = 16;  // for each group, as ~planning/known_paths of the node
 };
 
 /// How a request is planned.

@@ -58,6 +58,7 @@ PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFra
     memory_(memory),
     show_(std::move(show)),
     options_(options),
+    known_paths_(std::make_shared<KnownPaths>(options.known_paths)),
     configs_(PlannerConfigs::fromParameters(own)),
     admission_(options.at_once, options.max_waiting),
     checkers_(std::move(make_checker))
@@ -137,6 +138,7 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
   const Snapshot& now = requested.now;
   const RequestedState start = requestedStart(request, now);
   PlanningQuery query = queryFrom(request, now, start, config, configs_.ofGroup(request.group), options_);
+  query.known_paths = known_paths_;
   addRegions(request, *now.scene, others_, options_.max_goals, query);
   std::vector<std::string> warnings = std::move(requested.warnings);
   for (std::string& warning : planWarnings(request, now, start))

@@ -100,6 +100,21 @@ TEST_F(Planning, FindsThePathThroughASlotByPlannersOfAnyName)
   }
 }
 
+TEST_F(Planning, FindsTheWayBackWithFewChecks)
+{
+  const PlanMotion::Request there = request();
+  expectSolved(plan(there), there.start, there.goals);
+  PlanMotion::Request back = there;
+  std::swap(back.start, back.goals);
+  back.simplify = false;
+  const Response known = plan(back);
+  expectSolved(known, back.start, back.goals);
+  back.parameters.resize(1);
+  back.parameters[0].key = "max_rounds";
+  back.parameters[0].value = "1";  // the straight motion, and known paths
+  expectSolved(plan(back), back.start, back.goals);
+}
+
 TEST_F(Planning, OptimizesForAsLongAsTheRequestSays)
 {
   PlanMotion::Request wanted = request();
