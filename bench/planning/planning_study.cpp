@@ -156,6 +156,8 @@ class Study
       planner = plannerOfWayBack(in, problem, checker);
     else
       planner = std::make_unique<og::RRTConnect>(in.information);
+    if (!planner)
+      return {};
     planner->setProblemDefinition(in.definition);
     planner->setup();
 
@@ -176,6 +178,7 @@ class Study
   }
 
   /// The planner for a problem whose way back was planned, and shortened as in ~plan. This is not part of its time.
+  /// Null: no way back was found.
   std::unique_ptr<ob::Planner> plannerOfWayBack(const PlanningCase& in, PlanningProblem problem,
                                                 const std::shared_ptr<StateChecker>& checker) const
   {
@@ -184,12 +187,12 @@ class Study
     BatchRrtConnect first(there.information);
     first.setProblemDefinition(there.definition);
     first.setup();
-    auto planner = std::make_unique<BatchRrtConnect>(in.information);
     const auto end = ob::timedPlannerTerminationCondition(settings_.seconds);
     if (first.solve(end) != ob::PlannerStatus::EXACT_SOLUTION)
-      return planner;
+      return nullptr;
     auto& path = *there.definition->getSolutionPath()->as<og::PathGeometric>();
     PathShortcutter(there.information).shorten(path, end);
+    auto planner = std::make_unique<BatchRrtConnect>(in.information);
     planner->setKnownPaths({path});
     return planner;
   }

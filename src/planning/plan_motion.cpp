@@ -209,14 +209,17 @@ std::vector<og::PathGeometric> Plan::knownPaths() const
 {
   std::vector<og::PathGeometric> paths;
   ob::ScopedState<> state(space_);
+  std::vector<double> row = query_.start;
   for (const std::shared_ptr<const KnownPaths::Path>& known : query_.known_paths->of(query_.group))
   {
     paths.emplace_back(information_);
-    for (const std::vector<double>& row : *known)
+    for (const std::vector<double>& values : *known)
     {
-      if (row.size() != query_.start.size())
-        throw Error("a known path has " + std::to_string(row.size()) + " values in a row; the robot has " +
-                    std::to_string(query_.start.size()) + " variables");
+      if (values.size() != space_->variables().size())
+        throw Error("a known path has " + std::to_string(values.size()) + " values in a row; group '" + query_.group +
+                    "' plans for " + std::to_string(space_->variables().size()) + " variables");
+      for (std::size_t i = 0; i < values.size(); ++i)
+        row[static_cast<std::size_t>(space_->variables()[i])] = values[i];
       space_->copyFromRow(row.data(), state.get());
       paths.back().append(state.get());
     }
@@ -307,8 +310,6 @@ void Plan::finish(og::PathGeometric& path, const ob::GoalPtr& goals, const std::
   if (valid)
   {
     result_.waypoints = waypointsOf(path, *space_, query_.start);
-    if (query_.known_paths && goals)
-      query_.known_paths->add(query_.group, result_.waypoints);
     return;
   }
   result_.status = PlanningStatus::NoSolution;

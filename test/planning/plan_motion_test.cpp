@@ -16,7 +16,6 @@
 
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
-#include "gpu_planning_scene/planning/anytime_batch.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
 #include "model/model_testing.h"
@@ -174,9 +173,13 @@ TEST(PlanMotion, RepeatsAPathForASeed)
 class KnownWay : public testing::Test
 {
  protected:
-  KnownWay() { there.known_paths = known; }
+  KnownWay()
+  {
+    there.known_paths = known;
+    there.parameters = {{"max_rounds", "1"}};  // the straight motion, and known paths
+    there.seconds = 0.5;                       // for the proof of a path that ends near the goal
+  }
 
-  /// The query of the way back. If known paths are not tried, its search checks many states.
   PlanningQuery back() const
   {
     PlanningQuery turned = there;
@@ -184,56 +187,55 @@ class KnownWay : public testing::Test
     return turned;
   }
 
-  template <class Planner>
-  static std::uint64_t statesOf(const PlanningQuery& query)
+  void add(const std::vector<std::vector<double>>& waypoints)
   {
-    const PlanningResult result = plan<Planner>(kTwoGaps, query);
-    EXPECT_EQ(result.status, PlanningStatus::Solved) << result.message;
-    EXPECT_EQ(result.waypoints.back(), query.goals[0]);
-    return result.states_checked;
+    const PointRobot robot({});
+    known->add(std::make_shared<GroupStateSpace>(robot.scene()->robot, "plane"), waypoints);
   }
 
   inline static const std::vector<Wall> kTwoGaps = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
+  inline static const std::vector<std::vector<double>> kWay = {{-1.0, 0.0}, {-1.0, 1.9}, {0.0, 1.9},
+                                                               {0.0, -1.9}, {1.0, -1.9}, {1.0, 0.0}};
   std::shared_ptr<KnownPaths> known = std::make_shared<KnownPaths>(4);
   PlanningQuery there = query({-1.0, 0.0}, {{1.0, 0.0}});
 };
 
-TEST_F(KnownWay, IsFoundAgainWithFewChecks)
+TEST_F(KnownWay, IsTriedFirstInBothDirections)
 {
-  const std::uint64_t first = statesOf<BatchRrtConnect>(there);
-  ASSERT_EQ(known->of("plane").size(), 1u);
-  EXPECT_LT(2 * statesOf<BatchRrtConnect>(back()), first);
-  EXPECT_EQ(known->of("plane").size(), 1u);
+  EXPECT_NE(plan<BatchRrtConnect>(kTwoGaps, there).status, PlanningStatus::Solved);
+  add(kWay);
+  for (const PlanningQuery& wanted : {there, back()})
+  {
+    const PlanningResult result = plan<BatchRrtConnect>(kTwoGaps, wanted);
+    EXPECT_EQ(result.status, PlanningStatus::Solved) << result.message;
+    EXPECT_EQ(result.waypoints.back(), wanted.goals[0]);
+  }
 }
 
-TEST_F(KnownWay, IsAlsoTriedByThePlannerThatShortensPaths)
+TEST_F(KnownWay, IsNotTakenWhereTheSceneBlocksIt)
 {
-  statesOf<BatchRrtConnect>(there);
-  PlanningQuery turned = back();
-  turned.seconds = 0.2;
-  const PointRobot robot(kTwoGaps);
-  const PlanningResult result = planMotion(robot.scene(), robot.checker(), turned, PlannerFactoryOf<AnytimeBatch>());
-  EXPECT_EQ(result.status, PlanningStatus::Solved) << result.message;
+  add(kWay);
+  std::vector<Wall> walls = kTwoGaps;
+  walls.push_back({-0.2, -0.2, 0.2, 0.2});
+  EXPECT_NE(plan<BatchRrtConnect>(walls, there).status, PlanningStatus::Solved);
 }
 
 TEST_F(KnownWay, DoesNotChangeThePathOfASeed)
 {
   there.seed = 7;
+  there.parameters.clear();
+  there.seconds = 20.0;
   const auto first = plan<BatchRrtConnect>(kTwoGaps, there).waypoints;
-  known->add("plane", {there.start, {-1.0, 1.9}, {0.0, 1.9}, {0.0, -1.9}, {1.0, -1.9}, there.goals[0]});
+  add(kWay);
   EXPECT_EQ(plan<BatchRrtConnect>(kTwoGaps, there).waypoints, first);
 }
 
-TEST_F(KnownWay, IsNotOneThatEndsElsewhere)
+TEST_F(KnownWay, OfAGroupWithOtherVariablesIsRefused)
 {
-  there.seconds = 0.05;
-  EXPECT_NE(plan<BatchRrtConnect>(kWall, there).status, PlanningStatus::Solved);
-  EXPECT_TRUE(known->of("plane").empty());
-}
-
-TEST_F(KnownWay, OfAnotherRobotIsRefused)
-{
-  known->add("plane", {{0.0}, {1.0}});
+  const auto robot = robotOf(
+      "<link name='base'/>" + boxLink("wheel") + jointXml("turn", "continuous", "base", "wheel", "<axis xyz='0 0 1'/>"),
+      R"(<group name="plane"><joint name="turn"/></group>)");
+  known->add(std::make_shared<GroupStateSpace>(robot, "plane"), {{0.0}, {1.0}, {2.0}});
   EXPECT_THROW(plan<BatchRrtConnect>({}, there), Error);
 }
 

@@ -9,9 +9,11 @@
 
 #include <ompl/geometric/PathGeometric.h>
 
+#include "gpu_planning_scene/planning/group_state_space.h"
+
 namespace gpu_planning_scene::core
 {
-/// The last paths that were planned for each group of a robot. Robots repeat their ways, so a planner tries them first
+/// The last paths that were found for each group of a robot. Robots repeat their ways, so a planner tries them first
 /// (PlanningQuery::known_paths). A known path is only a proposal: each plan checks its motions in its own scene.
 /// Thread-safe.
 ///
@@ -19,15 +21,16 @@ namespace gpu_planning_scene::core
 class KnownPaths
 {
  public:
-  /// The waypoints of a path: rows with one value per variable of the robot, in radians and metres.
+  /// The waypoints of a path: rows of GroupStateSpace::variables(), in radians and metres.
   using Path = std::vector<std::vector<double>>;
 
   /// Keeps at most `capacity` paths of each group; 0: none.
   explicit KnownPaths(std::size_t capacity) : capacity_(capacity) {}
 
-  /// Adds a path. It replaces a path between the same two states, in either direction; if there are too many, the
-  /// oldest one goes.
-  void add(const std::string& group, Path path);
+  /// Adds the waypoints of a path of the space's group: rows with one value per variable of the robot. A straight
+  /// motion is not kept, because a planner tries it anyway. The path replaces one between the same two states (to
+  /// 1e-3, by the distance of the space), in either direction. If there are too many paths, the oldest one goes.
+  void add(const std::shared_ptr<GroupStateSpace>& space, const std::vector<std::vector<double>>& waypoints);
 
   /// The paths of a group, the newest first.
   std::vector<std::shared_ptr<const Path>> of(const std::string& group) const;
@@ -46,8 +49,8 @@ class TriesKnownPaths
  public:
   virtual ~TriesKnownPaths();
 
-  /// The next call of solve() tries these paths once, in both directions. They need not begin at a start or end at a
-  /// goal, and their motions need not be valid.
+  /// The next search tries these paths once, in both directions. They need not begin at a start or end at a goal, and
+  /// their motions need not be valid.
   virtual void setKnownPaths(std::vector<ompl::geometric::PathGeometric> paths) = 0;
 };
 }  // namespace gpu_planning_scene::core

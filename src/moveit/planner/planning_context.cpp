@@ -238,6 +238,9 @@ core::PlanningResult PlanningContext::planShortest(const ConvertedScene& convert
       best_length = length;
     }
   }
+  if (best.status == core::PlanningStatus::Solved)
+    workshop_->known_paths->add(std::make_shared<core::GroupStateSpace>(converted.robot->robot(), query.group),
+                                best.waypoints);
   return best;
 }
 

@@ -9,6 +9,7 @@
 #include <ros/console.h>
 
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning/group_state_space.h"
 #include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"
 #include "node/messages/requested_timing.h"
@@ -155,6 +156,9 @@ PlanService::Answer PlanService::plan(const Task& task)
   try
   {
     Answer answer{planMotion(task.scene, lease.checker(), task.query, *task.factory, stop), {}};
+    if (answer.plan.status == PlanningStatus::Solved)
+      known_paths_->add(std::make_shared<GroupStateSpace>(task.scene->robot, task.query.group, task.query.workspace),
+                        answer.plan.waypoints);
     if (task.timing && !answer.plan.waypoints.empty())
       answer.timed =
           timePath(*task.scene, lease.checker(), task.query.group, answer.plan.waypoints, *task.timing, stop);

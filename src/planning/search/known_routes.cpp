@@ -20,6 +20,11 @@ constexpr double kLongestLines = 0.5;
 // A plan for another task checks these routes in vain, so they are few.
 constexpr std::size_t kMostRoutes = 2;
 
+// The nearest place is searched in at most so many equal steps along a path, and a route has at most so many states: a
+// plan may have any range.
+constexpr double kMostSteps = 64.0;
+constexpr double kMostStates = 2000.0;
+
 /// A place on a path: on the motion from state `motion` to the next one, at this fraction of it.
 struct Place
 {
@@ -55,10 +60,11 @@ class NearestPlaces
            const std::vector<const ob::State*>& goals)
   {
     Route route{&path, {}, {}};
+    const double step = std::max(range_, path.length() / kMostSteps);
     for (std::size_t motion = 0; motion + 1 < path.getStateCount(); ++motion)
     {
       const auto [from, to] = std::pair(stateOf(path, motion), stateOf(path, motion + 1));
-      const std::size_t pieces = piecesOf(information_->distance(from, to), range_);
+      const std::size_t pieces = piecesOf(information_->distance(from, to), step);
       for (std::size_t piece = 0; piece <= pieces; ++piece)
       {
         const double fraction = static_cast<double>(piece) / static_cast<double>(pieces);
@@ -156,10 +162,14 @@ std::vector<PathGeometric> knownRoutes(const ob::SpaceInformationPtr& informatio
   std::vector<Route> routes;
   NearestPlaces nearest(information, range);
   for (const PathGeometric& path : known)
-    if (const Route route = nearest.on(path, starts, goals);
-        route.start.state && route.goal.state &&
-        route.lines() <= kLongestLines * information->distance(route.start.state, route.goal.state))
+  {
+    const Route route = nearest.on(path, starts, goals);
+    if (!route.start.state || !route.goal.state || path.length() + route.lines() > kMostStates * range)
+      continue;
+    const double distance = information->distance(route.start.state, route.goal.state);
+    if (distance > 0.0 && route.lines() <= kLongestLines * distance)
       routes.push_back(route);
+  }
   std::stable_sort(routes.begin(), routes.end(), [](const Route& a, const Route& b) { return a.lines() < b.lines(); });
   routes.resize(std::min(routes.size(), kMostRoutes));
   std::vector<PathGeometric> written;

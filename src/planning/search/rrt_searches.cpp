@@ -51,7 +51,7 @@ RrtSearch::Path RrtSearches::run(const MotionValidator& validator, const ob::Goa
     }
     before_round();
     path = first().runRound(validator, goal, options.limits, end);
-    if (!path && round == 0)
+    if (!path && round == 0 && !end)
       path = first().followPaths(validator, goal, options.known_paths, options.limits.range, end);
   }
   others.end();

@@ -100,15 +100,14 @@ TEST_F(Planning, FindsThePathThroughASlotByPlannersOfAnyName)
   }
 }
 
-TEST_F(Planning, FindsTheWayBackWithFewChecks)
+TEST_F(Planning, KnowsTheWayBack)
 {
-  const PlanMotion::Request there = request();
+  PlanMotion::Request there = request();
+  there.planner = "Batch";
+  there.start[0] -= 0.1;  // no other test has found this way
   expectSolved(plan(there), there.start, there.goals);
   PlanMotion::Request back = there;
   std::swap(back.start, back.goals);
-  back.simplify = false;
-  const Response known = plan(back);
-  expectSolved(known, back.start, back.goals);
   back.parameters.resize(1);
   back.parameters[0].key = "max_rounds";
   back.parameters[0].value = "1";  // the straight motion, and known paths
