@@ -1,13 +1,14 @@
 // planning_study: solves the planning problems of ../shared or $GPU_PLANNING_SCENE_DATA under both motion rules. It
-// compares the batch planner, OMPL's RRTConnect with this package's validator, and RRTConnect with FCL. The planners
-// use the same seeds and run one after the other. The exact checker checks each path again at ten times the resolution.
-// See --help.
+// compares the batch planner without and with a known path, OMPL's RRTConnect with this package's validator, and
+// RRTConnect with FCL. The planners use the same seeds and run one after the other. The exact checker checks each path
+// again at ten times the resolution. See --help.
 
 #include <algorithm>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
@@ -20,6 +21,7 @@
 #include "gpu_planning_scene/cpu_checker.h"
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
+#include "gpu_planning_scene/planning/path_shortcutter.h"
 #include "planning/fcl_checker.h"
 #include "planning/planning_case.h"
 #include "support/states_along.h"
@@ -34,10 +36,11 @@ namespace og = ompl::geometric;
 enum class Method
 {
   Batch,
+  BatchBack,
   RrtConnect,
   RrtConnectFcl
 };
-constexpr Method kMethods[] = {Method::Batch, Method::RrtConnect, Method::RrtConnectFcl};
+constexpr Method kMethods[] = {Method::Batch, Method::BatchBack, Method::RrtConnect, Method::RrtConnectFcl};
 
 const char* nameOf(Method method)
 {
@@ -45,6 +48,8 @@ const char* nameOf(Method method)
   {
     case Method::Batch:
       return "batch planner";
+    case Method::BatchBack:
+      return "batch planner, way back that is known";
     case Method::RrtConnect:
       return "RRTConnect, our validator";
     case Method::RrtConnectFcl:
@@ -147,8 +152,12 @@ class Study
     std::unique_ptr<ob::Planner> planner;
     if (method == Method::Batch)
       planner = std::make_unique<BatchRrtConnect>(in.information);
+    else if (method == Method::BatchBack)
+      planner = plannerOfWayBack(in, problem, checker);
     else
       planner = std::make_unique<og::RRTConnect>(in.information);
+    if (!planner)
+      return {};
     planner->setProblemDefinition(in.definition);
     planner->setup();
 
@@ -166,6 +175,26 @@ class Study
       checkAgain(path, *in.space, problem, in.options.steps, *exact_, outcome);
     }
     return outcome;
+  }
+
+  /// The planner for a problem whose way back was planned, and shortened as in ~plan. This is not part of its time.
+  /// Null: no way back was found.
+  std::unique_ptr<ob::Planner> plannerOfWayBack(const PlanningCase& in, PlanningProblem problem,
+                                                const std::shared_ptr<StateChecker>& checker) const
+  {
+    std::swap(problem.start, problem.goal);
+    const PlanningCase there(problem, checker, in.options.rule);
+    BatchRrtConnect first(there.information);
+    first.setProblemDefinition(there.definition);
+    first.setup();
+    const auto end = ob::timedPlannerTerminationCondition(settings_.seconds);
+    if (first.solve(end) != ob::PlannerStatus::EXACT_SOLUTION)
+      return nullptr;
+    auto& path = *there.definition->getSolutionPath()->as<og::PathGeometric>();
+    PathShortcutter(there.information).shorten(path, end);
+    auto planner = std::make_unique<BatchRrtConnect>(in.information);
+    planner->setKnownPaths({path});
+    return planner;
   }
 
   void summarize() const
@@ -221,12 +250,13 @@ int main(int argc, char** argv)
   ompl::msg::noOutputHandler();
   std::vector<Option> options = benchmark::StudySettings::options();
   options.push_back({"--runs", "N", "runs of each problem with different seeds (default 1)"});
-  const Tool tool{"planning_study", "--out DIR [OPTIONS]",
-                  "Plans the problems of the ur5 with the batch planner, and with OMPL's RRTConnect on this package's\n"
-                  "checker and on FCL, under both motion rules. Prints how many are solved and how fast. Writes\n"
-                  "planning.csv, a row for each plan, and planning_summary.csv.\n"
-                  "Exit code: 0 no wrong path, 1 a path that was accepted under the bound collides, or another error,\n"
-                  "2 bad usage.",
-                  options, benchmark::study};
+  const Tool tool{
+      "planning_study", "--out DIR [OPTIONS]",
+      "Plans the problems of the ur5 with the batch planner, also with the way back as a known path, and with\n"
+      "OMPL's RRTConnect on this package's checker and on FCL, under both motion rules. Prints how many are\n"
+      "solved and how fast. Writes planning.csv, a row for each plan, and planning_summary.csv.\n"
+      "Exit code: 0 no wrong path, 1 a path that was accepted under the bound collides, or another error,\n"
+      "2 bad usage.",
+      options, benchmark::study};
   return runTool(tool, argc, argv);
 }

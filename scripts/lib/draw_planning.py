@@ -19,6 +19,7 @@ from matplotlib import pyplot  # noqa: E402
 
 COLOURS = {
     "batch planner": "#1b7837",
+    "batch planner, way back that is known": "#7fbf7b",
     "RRTConnect, our validator": "#2166ac",
     "RRTConnect, FCL": "#b2182b",
 }

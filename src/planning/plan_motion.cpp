@@ -158,6 +158,7 @@ class Plan
 
   ob::GoalPtr goalOf(const CheckedEndpoints& endpoints);
   void findPath(const PlannerFactory& factory, const ob::GoalPtr& goals);
+  std::vector<og::PathGeometric> knownPaths() const;
   std::string faultOf(const og::PathGeometric* path, const ob::Goal* goals) const;
   void finish(og::PathGeometric& path, const ob::GoalPtr& goals, const std::string& planner);
 
@@ -203,6 +204,29 @@ std::string Plan::faultOf(const og::PathGeometric* path, const ob::Goal* goals) 
   return "";
 }
 
+/// The known paths of the query, in the planner's space.
+std::vector<og::PathGeometric> Plan::knownPaths() const
+{
+  std::vector<og::PathGeometric> paths;
+  ob::ScopedState<> state(space_);
+  std::vector<double> row = query_.start;
+  for (const std::shared_ptr<const KnownPaths::Path>& known : query_.known_paths->of(query_.group))
+  {
+    paths.emplace_back(information_);
+    for (const std::vector<double>& values : *known)
+    {
+      if (values.size() != space_->variables().size())
+        throw Error("a known path has " + std::to_string(values.size()) + " values in a row; group '" + query_.group +
+                    "' plans for " + std::to_string(space_->variables().size()) + " variables");
+      for (std::size_t i = 0; i < values.size(); ++i)
+        row[static_cast<std::size_t>(space_->variables()[i])] = values[i];
+      space_->copyFromRow(row.data(), state.get());
+      paths.back().append(state.get());
+    }
+  }
+  return paths;
+}
+
 /// The goal for the planner. Null, with the fault in the result, if there is no goal state and no state of a goal
 /// region is found.
 ob::GoalPtr Plan::goalOf(const CheckedEndpoints& endpoints)
@@ -238,6 +262,8 @@ void Plan::findPath(const PlannerFactory& factory, const ob::GoalPtr& goals)
   setParameters(*planner, query_.parameters);
   if (query_.seed != 0 && planner->params().hasParam("searches") && query_.parameters.count("searches") == 0)
     planner->params().setParam("searches", "1");  // the path must not depend on the speed of threads
+  if (auto* const user = dynamic_cast<TriesKnownPaths*>(planner.get()); user && query_.known_paths && query_.seed == 0)
+    user->setKnownPaths(knownPaths());
   planner->setProblemDefinition(definition);
   planner->setup();
   const ob::PlannerStatus status = planner->solve(within(query_.seconds - secondsSince(begin_)));

@@ -106,6 +106,7 @@ TEST_F(PlannerParameters, OfARightTypeAreTaken)
   EXPECT_TRUE(initializesWith("waypoint_distance", 0.05));
   EXPECT_TRUE(initializesWith("waypoint_distance", 1));
   EXPECT_TRUE(initializesWith("waypoint_distance", 0));
+  EXPECT_TRUE(initializesWith("known_paths", 0));
   EXPECT_TRUE(initializesWith("planner_configs", mapWith("Fast", mapWith("type", "geometric::RRTConnect"))));
 }
 
@@ -115,6 +116,9 @@ TEST_F(PlannerParameters, OfAWrongTypeOrValueAreRefusedInOneLine)
   expectRefusal("device", true);
   expectRefusal("waypoint_distance", "near");
   expectRefusal("waypoint_distance", true);
+  expectRefusal("known_paths", -1);
+  expectRefusal("known_paths", 1001);
+  expectRefusal("known_paths", 2.0);
   expectRefusal("waypoint_distance", -0.1);
   expectRefusal("waypoint_distance", 1e-6);
   expectRefusal("waypoint_distance", std::numeric_limits<double>::infinity());

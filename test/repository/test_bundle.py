@@ -124,7 +124,7 @@ class BundleTest(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(os.path.join(out, "planning.csv"), newline="") as table:
             methods = {(row["rule"], row["method"]) for row in csv.DictReader(table)}
-        self.assertEqual(len(methods), 6)
+        self.assertEqual(len(methods), 8)
         self.assertTrue(os.path.exists(os.path.join(self.bundle, "draw_planning.py")))
 
     def test_an_unknown_program_is_named_with_those_that_there_are(self):

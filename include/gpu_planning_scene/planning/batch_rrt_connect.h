@@ -3,9 +3,14 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include <ompl/base/Planner.h>
 #include <ompl/base/goals/GoalSampleableRegion.h>
+#include <ompl/geometric/PathGeometric.h>
+
+#include "gpu_planning_scene/planning/known_paths.h"
 
 namespace gpu_planning_scene::core
 {
@@ -18,6 +23,8 @@ class RrtSearches;
 ///   - Then one tree grows motions towards many random states: the smaller one, and now and then the larger one. In the
 ///     next round, the other tree grows towards each of the new vertices, in segments no longer than the range and as
 ///     far as they are valid.
+/// After the first round, known paths are tried, if there are any (setKnownPaths): the free motions of the two that
+/// begin and end nearest to the problem's states become branches.
 /// If the trees meet in several places at once, the shortest path is the solution.
 /// The trees grow by motions that MotionValidator::validateCoarsely accepts. When a path is found, its motions are
 /// validated by the validator's rule. A motion that fails is removed from its tree, with everything that grew from it.
@@ -32,7 +39,7 @@ class RrtSearches;
 /// planning with superlinear speedup. IROS 2012.
 /// Several searches, of which the first solution counts: I. Aguinaga, D. Borro, L. Matey: Parallel RRT-based path
 /// planning for selective disassembly planning. International Journal of Advanced Manufacturing Technology 36, 2008.
-class BatchRrtConnect : public ompl::base::Planner
+class BatchRrtConnect : public ompl::base::Planner, public TriesKnownPaths
 {
  public:
   explicit BatchRrtConnect(const ompl::base::SpaceInformationPtr& information);
@@ -67,6 +74,8 @@ class BatchRrtConnect : public ompl::base::Planner
   /// default, among all.
   void setLargestLength(double length) { largest_length_ = length; }
 
+  void setKnownPaths(std::vector<ompl::geometric::PathGeometric> paths) override { known_paths_ = std::move(paths); }
+
   /// Throws ompl::Exception if the space information has no gpu_planning_scene::core::MotionValidator.
   void setup() override;
   void clear() override;
@@ -94,6 +103,7 @@ class BatchRrtConnect : public ompl::base::Planner
   bool is_exact_only_ = false;
   double largest_length_ = std::numeric_limits<double>::infinity();
   unsigned int searches_ = 0;
+  std::vector<ompl::geometric::PathGeometric> known_paths_;
   std::unique_ptr<RrtSearches> search_;  // everything that clear() deletes
 };
 }  // namespace gpu_planning_scene::core

@@ -32,6 +32,7 @@ using planning_interface::PlannerConfigurationSettings;
 
 constexpr double kWaypointDistance = 0.1;  // radians or metres: the default of NAMESPACE/waypoint_distance
 constexpr double kLeastWaypointDistance = 1e-3;
+constexpr int kMostKnownPaths = 1000;
 
 /// The name of a group's planner in MoveIt's map of configurations.
 std::string settingsName(const std::string& group, const std::string& config)
@@ -73,6 +74,17 @@ double waypointDistance(const std::string& name)
   return distance;
 }
 
+std::size_t knownPaths(const std::string& name)
+{
+  XmlRpc::XmlRpcValue value;
+  if (!ros::param::get(name, value))
+    return Workshop::kKnownPaths;
+  const int count = value.getType() == XmlRpc::XmlRpcValue::TypeInt ? static_cast<int>(value) : -1;
+  if (count < 0 || count > kMostKnownPaths)
+    throw core::Error("parameter " + name + " must be an integer from 0 to " + std::to_string(kMostKnownPaths));
+  return static_cast<std::size_t>(count);
+}
+
 /// The parameters of MoveIt's namespace, with the names and the layout of ompl_planning.yaml.
 PlannerConfigs readConfigs(const moveit::core::RobotModel& model, const std::string& name_space)
 {
@@ -89,7 +101,7 @@ PlannerConfigs readConfigs(const moveit::core::RobotModel& model, const std::str
 
 /// Makes planning contexts. Reads these parameters of its namespace if ROS is initialised: planner_configs and
 /// GROUP/{default_planner_config, planner_configs, projection_evaluator, longest_valid_segment_fraction} as in
-/// ompl_planning.yaml, `device` (a device as in BatchCheckerOptions, or "cpu"), `waypoint_distance`.
+/// ompl_planning.yaml, `device` (a device as in BatchCheckerOptions, or "cpu"), `waypoint_distance`, `known_paths`.
 class PlannerManager : public planning_interface::PlannerManager
 {
  public:
@@ -99,13 +111,15 @@ class PlannerManager : public planning_interface::PlannerManager
     {
       model_ = model;
       std::string device = "auto";
+      std::size_t known_paths = Workshop::kKnownPaths;
       if (ros::isInitialized())
       {
         configs_ = readConfigs(*model, name_space);
         device = textParameter(name_space + "/device", device);
         waypoint_distance_ = waypointDistance(name_space + "/waypoint_distance");
+        known_paths = knownPaths(name_space + "/known_paths");
       }
-      workshop_ = std::make_shared<Workshop>(checkerMakerFor(device));
+      workshop_ = std::make_shared<Workshop>(checkerMakerFor(device), known_paths);
       prepareChecker(*workshop_, model);  // now, so that the first request need not wait for the device
       setPlannerConfigurations(settings());
       return true;

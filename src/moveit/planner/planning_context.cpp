@@ -219,6 +219,8 @@ core::PlanningResult PlanningContext::planShortest(const ConvertedScene& convert
     if (attempt > 0 && (left < kLeastSeconds || stopped_))
       break;
     query.seconds = left;
+    // Further attempts look for other paths.
+    query.known_paths = attempt == 0 ? workshop_->known_paths : nullptr;
     core::PlanningResult result = core::planMotion(converted.scene, checker, query, *choice_.factory, stop);
     if (result.status != core::PlanningStatus::Solved)
     {
@@ -236,6 +238,9 @@ core::PlanningResult PlanningContext::planShortest(const ConvertedScene& convert
       best_length = length;
     }
   }
+  if (best.status == core::PlanningStatus::Solved)
+    workshop_->known_paths->add(std::make_shared<core::GroupStateSpace>(converted.robot->robot(), query.group),
+                                best.waypoints);
   return best;
 }
 

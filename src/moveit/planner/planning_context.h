@@ -21,11 +21,18 @@ namespace gpu_planning_scene::pipeline
 /// Thread-safe.
 struct Workshop
 {
-  explicit Workshop(core::MakeChecker make_checker) : checkers(std::move(make_checker)) {}
+  static constexpr std::size_t kKnownPaths = 16;  ///< as ~planning/known_paths of the node
+
+  /// `paths`: that are kept for each group.
+  explicit Workshop(core::MakeChecker make_checker, std::size_t paths = kKnownPaths)
+    : checkers(std::move(make_checker)), known_paths(std::make_shared<core::KnownPaths>(paths))
+  {
+  }
 
   SceneConverter converter;
   core::CheckerPool checkers;
   core::PlannerLoader plugins;
+  const std::shared_ptr<core::KnownPaths> known_paths;
 };
 
 /// How a request is planned.

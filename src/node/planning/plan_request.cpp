@@ -131,6 +131,7 @@ std::string startBeyondGroup(const PlanMotion::Request& request, const Snapshot&
 PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own)
 {
   constexpr std::size_t kMaxAtOnce = 64;
+  constexpr std::size_t kMaxKnownPaths = 1000;  // each plan compares its start and its goals with all of them
   constexpr std::size_t kNoLimit = std::size_t{1} << 31;
   PlanServiceOptions options;
   options.seconds = positiveParameter(own, "planning/time", options.seconds);
@@ -149,6 +150,7 @@ PlanServiceOptions planOptionsFromParameters(const ros::NodeHandle& own)
   steps.prismatic = positiveParameter(own, "planning/translation_resolution", steps.prismatic);
   options.max_deviation = lengthParameter(own, "planning/max_deviation", options.max_deviation);
   options.at_once = countParameter(own, "planning/at_once", options.at_once, 1, kMaxAtOnce);
+  options.known_paths = countParameter(own, "planning/known_paths", options.known_paths, 0, kMaxKnownPaths);
   options.max_waiting = countParameter(own, "limits/waiting_plans", options.max_waiting, 0, kNoLimit);
   options.max_goals = countParameter(own, "limits/goals", options.max_goals, 1, kNoLimit);
   options.max_parameter = countParameter(own, "limits/planner_parameter", options.max_parameter, 1, kNoLimit);

@@ -21,6 +21,7 @@ struct PlanServiceOptions
   MotionCheckerOptions motions;      ///< ~planning/motion_rule, ~planning/resolution, ~planning/translation_resolution
   double max_deviation = 0.05;       ///< see PathTimingOptions: ~planning/max_deviation
   std::size_t at_once = 2;           ///< requests that are planned at the same time: ~planning/at_once
+  std::size_t known_paths = 16;      ///< that are kept for each group: ~planning/known_paths
   std::size_t max_waiting = 16;      ///< queued requests: ~limits/waiting_plans
   std::size_t max_goals = 1000;      ///< goals of a request: ~limits/goals
   std::size_t max_parameter = 1000;  ///< largest value of a planner's parameter: ~limits/planner_parameter

@@ -9,6 +9,7 @@
 #include <ros/console.h>
 
 #include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning/group_state_space.h"
 #include "node/checks/requested_scene.h"
 #include "node/endpoints/respond.h"
 #include "node/messages/requested_timing.h"
@@ -58,6 +59,7 @@ PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFra
     memory_(memory),
     show_(std::move(show)),
     options_(options),
+    known_paths_(std::make_shared<KnownPaths>(options.known_paths)),
     configs_(PlannerConfigs::fromParameters(own)),
     admission_(options.at_once, options.max_waiting),
     checkers_(std::move(make_checker))
@@ -137,6 +139,7 @@ PlanService::Task PlanService::taskOf(const PlanMotion::Request& request)
   const Snapshot& now = requested.now;
   const RequestedState start = requestedStart(request, now);
   PlanningQuery query = queryFrom(request, now, start, config, configs_.ofGroup(request.group), options_);
+  query.known_paths = known_paths_;
   addRegions(request, *now.scene, others_, options_.max_goals, query);
   std::vector<std::string> warnings = std::move(requested.warnings);
   for (std::string& warning : planWarnings(request, now, start))
@@ -153,6 +156,9 @@ PlanService::Answer PlanService::plan(const Task& task)
   try
   {
     Answer answer{planMotion(task.scene, lease.checker(), task.query, *task.factory, stop), {}};
+    if (answer.plan.status == PlanningStatus::Solved)
+      known_paths_->add(std::make_shared<GroupStateSpace>(task.scene->robot, task.query.group, task.query.workspace),
+                        answer.plan.waypoints);
     if (task.timing && !answer.plan.waypoints.empty())
       answer.timed =
           timePath(*task.scene, lease.checker(), task.query.group, answer.plan.waypoints, *task.timing, stop);

@@ -74,6 +74,7 @@ class PlanService
   const MemoryGuard& memory_;
   const Show show_;
   const PlanServiceOptions options_;
+  const std::shared_ptr<KnownPaths> known_paths_;
   const PlannerConfigs configs_;
   const OmplLog log_;
   PlannerLoader plugins_;

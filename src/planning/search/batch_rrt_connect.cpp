@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include <ompl/util/Time.h>
 
@@ -158,7 +159,8 @@ ob::PlannerStatus BatchRrtConnect::solve(const ob::PlannerTerminationCondition& 
   }
   const MotionValidator& validator = bulkValidatorOf(*si_, getName().c_str());
   const ompl::time::point start = ompl::time::now();
-  const RrtSearches::Options options{searchesOf(validator), max_rounds_, {branches_, range_, largest_length_}};
+  const RrtSearches::Options options{
+      searchesOf(validator), max_rounds_, {branches_, range_, largest_length_}, std::exchange(known_paths_, {})};
   RrtSearch::Path path = search_->run(
       validator, *goal, options, [this] { takeMoreGoals(); }, ptc);
   const double spent = ompl::time::seconds(ompl::time::now() - start);

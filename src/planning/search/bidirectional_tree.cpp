@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 // A round collects the next motions of all attempts and of the random branches. It checks their samples in one call and
@@ -256,6 +257,59 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
       meetings.push_back(connection.side == Start ? Meeting{&tip, connection.to} : Meeting{connection.to, &tip});
     else
       connections_.push_back({connection.side, &tip, connection.to, std::min(kMaxPieces, 2 * connection.max_pieces)});
+  }
+  return meetings;
+}
+
+/// Adds states one after the other. Returns the vertex of the last one.
+const RrtTree::Vertex& BidirectionalTree::addBranch(Side side, const Vertex& root,
+                                                    const std::vector<const ompl::base::State*>& states)
+{
+  const Vertex* tip = &root;
+  for (const ompl::base::State* state : states)
+    tip = &trees_[side].add(state, tip);
+  return *tip;
+}
+
+std::vector<BidirectionalTree::Meeting> BidirectionalTree::follow(
+    const MotionValidator& validator, const std::vector<ompl::geometric::PathGeometric>& routes,
+    const ompl::base::PlannerTerminationCondition& ptc)
+{
+  std::vector<std::vector<const ompl::base::State*>> states;
+  std::vector<MotionValidator::Motion> motions;
+  for (const ompl::geometric::PathGeometric& route : routes)
+  {
+    states.emplace_back();
+    for (unsigned int i = 0; i < route.getStateCount(); ++i)
+      states.back().push_back(route.getState(i));
+    for (std::size_t i = 1; i < states.back().size(); ++i)
+      motions.emplace_back(states.back()[i - 1], states.back()[i]);
+  }
+  const std::vector<std::uint8_t> valid = validator.validateCoarsely(motions, ptc);
+  if (ptc)  // motions without a verdict are reported as invalid
+    return {};
+
+  std::vector<Meeting> meetings;
+  auto first = valid.begin();
+  for (const std::vector<const ompl::base::State*>& route : states)
+  {
+    const auto end = first + static_cast<std::ptrdiff_t>(route.size() - 1);
+    const auto at_start = std::find(first, end, 0) - first;  // free motions from the start on
+    const auto at_goal =
+        std::find(std::reverse_iterator(end), std::reverse_iterator(first), 0) - std::reverse_iterator(end);
+    const bool is_free = first + at_start == end;
+    first = end;
+    // A vertex per state; the roots are in the trees already.
+    const Vertex& start = trees_[Start].nearest(route.front());
+    const Vertex& goal = trees_[Goal].nearest(route.back());
+    const Vertex& tip = addBranch(Start, start, {route.begin() + 1, route.begin() + 1 + at_start - (is_free ? 1 : 0)});
+    if (is_free)
+    {
+      meetings.push_back({&tip, &goal});
+      continue;
+    }
+    const Vertex& goal_tip = addBranch(Goal, goal, {route.rbegin() + 1, route.rbegin() + 1 + at_goal});
+    connections_.push_back({Start, &tip, &goal_tip, 1});
   }
   return meetings;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <ompl/base/Planner.h>
+#include <ompl/geometric/PathGeometric.h>
 
 #include "gpu_planning_scene/planning/motion_validator.h"
 #include "planning/search/rrt_tree.h"
@@ -61,6 +62,14 @@ class BidirectionalTree
   std::vector<Meeting> grow(const MotionValidator& validator, const Limits& limits,
                             const ompl::base::PlannerTerminationCondition& ptc);
 
+  /// Checks the samples of routes in one call. Each leads from a root of the start tree to one of the goal tree. Its
+  /// free motions from either end on become branches. If they are not all free, the trees grow towards each other from
+  /// the ends of these branches in the next round. Returns the meetings, one for each free route. If `ptc` ends the
+  /// call, the trees stay as they were.
+  std::vector<Meeting> follow(const MotionValidator& validator,
+                              const std::vector<ompl::geometric::PathGeometric>& routes,
+                              const ompl::base::PlannerTerminationCondition& ptc);
+
  private:
   using Vertex = RrtTree::Vertex;
 
@@ -87,6 +96,7 @@ class BidirectionalTree
   Attempt pieces(const MotionValidator& validator, Connection connection, double range);
   Attempt randomBranch(const MotionValidator& validator, Side side, const Limits& limits);
   double lengthThrough(const ompl::base::State* state) const;
+  const Vertex& addBranch(Side side, const Vertex& root, const std::vector<const ompl::base::State*>& states);
   const Vertex& advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done);
   ompl::base::State* scratch();
 

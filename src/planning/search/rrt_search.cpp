@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "planning/search/known_routes.h"
+
 // The trees grow by motions that are checked coarsely. The search proves only the motions of a path that it has found.
 // If a motion of the path fails, it is removed from its tree, and the search goes on. This delay of expensive checks is
 // the idea of G. Sanchez, J.-C. Latombe: A single-query bi-directional probabilistic roadmap planner with lazy
@@ -145,13 +147,30 @@ RrtSearch::Path RrtSearch::provenPath(const MotionValidator& validator, const ob
   return found;
 }
 
-RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
-                                    const BidirectionalTree::Limits& limits, const ob::PlannerTerminationCondition& ptc)
+/// Takes the new meetings and vertices of the trees. Returns a solution, or null.
+RrtSearch::Path RrtSearch::take(const std::vector<BidirectionalTree::Meeting>& meetings,
+                                const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
+                                const ob::PlannerTerminationCondition& ptc)
 {
-  for (const BidirectionalTree::Meeting& meeting : trees_.grow(validator, limits, ptc))
+  for (const BidirectionalTree::Meeting& meeting : meetings)
     addCandidate(goal, meeting);
   lookAtNewVertices(goal);
   return provenPath(validator, ptc);
+}
+
+RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
+                                    const BidirectionalTree::Limits& limits, const ob::PlannerTerminationCondition& ptc)
+{
+  return take(trees_.grow(validator, limits, ptc), validator, goal, ptc);
+}
+
+RrtSearch::Path RrtSearch::followPaths(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
+                                       const std::vector<PathGeometric>& known, double range,
+                                       const ob::PlannerTerminationCondition& ptc)
+{
+  const std::vector<PathGeometric> routes = knownRoutes(information_, known, trees_.roots(BidirectionalTree::Start),
+                                                        trees_.roots(BidirectionalTree::Goal), range);
+  return routes.empty() ? nullptr : take(trees_.follow(validator, routes, ptc), validator, goal, ptc);
 }
 
 RrtSearch::Path RrtSearch::approximatePath(const MotionValidator& validator,

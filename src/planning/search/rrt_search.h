@@ -28,6 +28,11 @@ class RrtSearch
   Path runRound(const MotionValidator& validator, const ompl::base::GoalSampleableRegion& goal,
                 const BidirectionalTree::Limits& limits, const ompl::base::PlannerTerminationCondition& ptc);
 
+  /// Tries known paths: see knownRoutes(). Returns a solution, or null.
+  Path followPaths(const MotionValidator& validator, const ompl::base::GoalSampleableRegion& goal,
+                   const std::vector<ompl::geometric::PathGeometric>& known, double range,
+                   const ompl::base::PlannerTerminationCondition& ptc);
+
   /// Proves the paths through the meetings found so far, shortest first. Returns the first path that is proven before
   /// `ptc` returns true, or null. Invalid motions are removed from the trees. Motions without a verdict stay.
   Path provenPath(const MotionValidator& validator, const ompl::base::PlannerTerminationCondition& ptc);
@@ -51,6 +56,8 @@ class RrtSearch
     Path path;
   };
 
+  Path take(const std::vector<BidirectionalTree::Meeting>& meetings, const MotionValidator& validator,
+            const ompl::base::GoalSampleableRegion& goal, const ompl::base::PlannerTerminationCondition& ptc);
   void addCandidate(const ompl::base::GoalSampleableRegion& goal, const BidirectionalTree::Meeting& meeting);
   void lookAtNewVertices(const ompl::base::GoalSampleableRegion& goal);
   bool isProven(const MotionValidator& validator, const BidirectionalTree::Meeting& meeting,

@@ -51,6 +51,8 @@ RrtSearch::Path RrtSearches::run(const MotionValidator& validator, const ob::Goa
     }
     before_round();
     path = first().runRound(validator, goal, options.limits, end);
+    if (!path && round == 0 && !end)
+      path = first().followPaths(validator, goal, options.known_paths, options.limits.range, end);
   }
   others.end();
   const OtherSearches::Solution other = others.solution();

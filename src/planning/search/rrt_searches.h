@@ -25,6 +25,7 @@ class RrtSearches
     std::size_t count;       ///< largest number of searches, at least 1
     std::size_t max_rounds;  ///< of the first search; 0: no limit
     BidirectionalTree::Limits limits;
+    std::vector<ompl::geometric::PathGeometric> known_paths = {};  ///< tried once, after the first round
   };
 
   explicit RrtSearches(const ompl::base::Planner& planner);

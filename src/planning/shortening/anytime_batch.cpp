@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu_planning_scene/planning/batch_rrt_connect.h"
@@ -17,16 +18,16 @@ using ompl::geometric::PathGeometric;
 }  // namespace
 
 AnytimeBatch::AnytimeBatch(const ob::SpaceInformationPtr& information)
-  : ob::Planner(information, "AnytimeBatch"), best_length_(std::numeric_limits<double>::infinity())
+  : ob::Planner(information, "AnytimeBatch"),
+    search_(std::make_shared<BatchRrtConnect>(information)),
+    best_length_(std::numeric_limits<double>::infinity())
 {
   specs_.recognizedGoal = ob::GOAL_SAMPLEABLE_REGION;
   specs_.directed = true;
   specs_.approximateSolutions = true;
   specs_.optimizingPaths = true;
-  const auto search = std::make_shared<BatchRrtConnect>(information);
-  declareParam<unsigned int>("searches", search.get(), &BatchRrtConnect::setSearches, &BatchRrtConnect::getSearches,
+  declareParam<unsigned int>("searches", search_.get(), &BatchRrtConnect::setSearches, &BatchRrtConnect::getSearches,
                              "0:1:64");
-  search_ = search;
   addPlannerProgressProperty("best cost REAL", [this] { return std::to_string(best_length_.load()); });
 }
 
@@ -36,6 +37,11 @@ void AnytimeBatch::setProblemDefinition(const ob::ProblemDefinitionPtr& definiti
 {
   Planner::setProblemDefinition(definition);
   clear();
+}
+
+void AnytimeBatch::setKnownPaths(std::vector<PathGeometric> paths)
+{
+  search_->setKnownPaths(std::move(paths));
 }
 
 void AnytimeBatch::setup()

@@ -100,6 +100,20 @@ TEST_F(Planning, FindsThePathThroughASlotByPlannersOfAnyName)
   }
 }
 
+TEST_F(Planning, KnowsTheWayBack)
+{
+  PlanMotion::Request there = request();
+  there.planner = "Batch";
+  there.start[0] -= 0.1;  // no other test has found this way
+  expectSolved(plan(there), there.start, there.goals);
+  PlanMotion::Request back = there;
+  std::swap(back.start, back.goals);
+  back.parameters.resize(1);
+  back.parameters[0].key = "max_rounds";
+  back.parameters[0].value = "1";  // the straight motion, and known paths
+  expectSolved(plan(back), back.start, back.goals);
+}
+
 TEST_F(Planning, OptimizesForAsLongAsTheRequestSays)
 {
   PlanMotion::Request wanted = request();
