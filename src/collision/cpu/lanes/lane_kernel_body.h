@@ -175,12 +175,22 @@ inline void proveWorldPairsInAllLanes(const Model& model, const Scratch& scratch
     const WorldGroup& group = model.world_groups[g];
     const Instance& instance = model.instances[group.instance];
     const Points center = centersOf(group.instance, scratch);
-    const Floats to_group = squaredDistanceToBox(center.x - group.center[0], center.y - group.center[1],
-                                                 center.z - group.center[2], group.half);
-    if ((bits(~(to_group > margins.squaredSum(instance.outer, group.instance))) & lanes.active) == 0)
-      continue;
-    for (std::uint32_t w = group.first; w < group.end && lanes.active != 0; ++w)
+    const Floats outside = margins.squaredSum(instance.outer, group.instance);
+    const auto is_near = [&](const FrameBox& box)
     {
+      const Floats squared = squaredDistanceToBox(center.x - box.center[0], center.y - box.center[1],
+                                                  center.z - box.center[2], box.half);
+      return (bits(~(squared > outside)) & lanes.active) != 0;
+    };
+    if (!is_near(group.box))
+      continue;
+    // No branch for each pair: it would often be taken in vain.
+    std::uint32_t near = 0;  // bits: pairs of the group
+    for (std::uint32_t w = group.first; w < group.end; ++w)
+      near |= static_cast<std::uint32_t>(is_near(model.world_pairs[w].box)) << (w - group.first);
+    for (; near != 0 && lanes.active != 0; near &= near - 1)
+    {
+      const std::uint32_t w = group.first + static_cast<std::uint32_t>(__builtin_ctz(near));
       const WorldPair& pair = model.world_pairs[w];
       const Object& object = model.objects[pair.object];
       const std::uint32_t number = model.self_pairs.count + w;

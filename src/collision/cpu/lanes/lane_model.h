@@ -103,6 +103,13 @@ struct BoxThresholds
   float parallel;  ///< to the absolute values of the relative rotation
 };
 
+/// A box along the axes of the planning frame.
+struct FrameBox
+{
+  float center[3];
+  float half[3];
+};
+
 struct SelfPair
 {
   std::uint32_t a;
@@ -129,22 +136,22 @@ struct SelfGroup
   std::uint32_t end;
 };
 
+/// The box, in the planning frame, contains the object, grown by `enclosing`.
 struct WorldPair
 {
   std::uint32_t instance;
   std::uint32_t object;
   Thresholds thresholds;
+  FrameBox box;
 };
 
-/// Consecutive world pairs of one instance. The box, in the planning frame, contains their objects, grown by
-/// `enclosing`.
+/// Consecutive world pairs of one instance. The box contains theirs.
 struct WorldGroup
 {
   std::uint32_t instance;
   std::uint32_t first;
   std::uint32_t end;
-  float center[3];
-  float half[3];
+  FrameBox box;
 };
 
 /// A variable of a joint table.

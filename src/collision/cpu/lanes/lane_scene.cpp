@@ -301,6 +301,19 @@ void LaneScene::addSelfGroups(std::uint32_t first)
   }
 }
 
+/// A box of floats that contains a box, with the rounding errors of a test of it.
+lanes::FrameBox LaneScene::frameBox(const Eigen::AlignedBox3d& bounds) const
+{
+  lanes::FrameBox box{};
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    box.center[axis] = static_cast<float>(bounds.center()[axis]);
+    const double rounding = 4.0 * rounding_.unit * (std::abs(bounds.center()[axis]) + 0.5 * bounds.sizes()[axis]);
+    box.half[axis] = floatAbove(0.5 * bounds.sizes()[axis] + rounding);
+  }
+  return box;
+}
+
 void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& forest)
 {
   const std::vector<LaneObject> objects = laneObjects(problem, forest, origin_);
@@ -322,14 +335,7 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
       const auto end = static_cast<std::uint32_t>(world_pairs_.size());
       if (first == end)
         return;
-      lanes::WorldGroup group{b, first, end, {}, {}};
-      for (int axis = 0; axis < 3; ++axis)
-      {
-        group.center[axis] = static_cast<float>(bounds.center()[axis]);
-        const double rounding = 4.0 * rounding_.unit * (std::abs(bounds.center()[axis]) + 0.5 * bounds.sizes()[axis]);
-        group.half[axis] = floatAbove(0.5 * bounds.sizes()[axis] + rounding);
-      }
-      world_groups_.push_back(group);
+      world_groups_.push_back({b, first, end, frameBox(bounds)});
       bounds.setEmpty();
     };
     auto first = static_cast<std::uint32_t>(world_pairs_.size());
@@ -350,7 +356,7 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
           boundsWithin(object, instance_errors_[b].largest_distance + static_cast<double>(instances_[b].outer));
       world_bounds_.emplace_back(box.min() - growth, box.max() + growth);
       bounds.extend(world_bounds_.back());
-      world_pairs_.push_back({b, o, thresholds});
+      world_pairs_.push_back({b, o, thresholds, frameBox(world_bounds_.back())});
       pairs_.push_back({b, static_cast<std::uint32_t>(problem.robot.size()) + o});
       if (world_pairs_.size() - first == kGroup)
       {

@@ -72,6 +72,7 @@ class LaneScene
   void addSelfPair(std::size_t p, const CollisionProblem& problem);
   void addSelfGroups(std::uint32_t first);
   std::uint32_t centerOf(std::uint32_t instance) const;
+  lanes::FrameBox frameBox(const Eigen::AlignedBox3d& bounds) const;
   void addWorld(const CollisionProblem& problem, const CpuForest& forest);
   double distanceBetween(const CenterError& a, const CenterError& b) const;
   double selfError(std::uint32_t a, std::uint32_t b) const;

@@ -183,7 +183,7 @@ class Writer
     // Half a step more covers the rounding of the shader.
     const auto step = [&group](double place, std::size_t axis)
     {
-      return (place - static_cast<double>(group.center[axis])) / static_cast<double>(group.half[axis]) * BOX_STEPS +
+      return (place - static_cast<double>(group.box.center[axis])) / static_cast<double>(group.box.half[axis]) * BOX_STEPS +
              BOX_STEPS;
     };
     ProofTexel texel = {};
@@ -204,8 +204,8 @@ class Writer
     for (std::uint32_t g = 0; g < model_.world_groups.count; ++g)
     {
       const lanes::WorldGroup& group = model_.world_groups[g];
-      texels_.push_back({bits(group.center[0]), bits(group.center[1]), bits(group.center[2]), group.first});
-      texels_.push_back({bits(group.half[0]), bits(group.half[1]), bits(group.half[2]), group.end});
+      texels_.push_back({bits(group.box.center[0]), bits(group.box.center[1]), bits(group.box.center[2]), group.first});
+      texels_.push_back({bits(group.box.half[0]), bits(group.box.half[1]), bits(group.box.half[2]), group.end});
     }
     return first;
   }
