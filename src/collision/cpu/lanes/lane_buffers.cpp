@@ -11,13 +11,15 @@ lanes::Scratch LaneBuffers::of(const LaneScene& scene)
   const std::size_t boxes = std::size_t{lanes::kBoxNumbers} * lanes::kLanes * model.instances.count;
   floats_.resize(frames + centers + balls + boxes);
   placed_.resize(std::size_t{2} * model.instances.count);
-  open_.resize(lanes::kLanes * scene.pairCount());
+  open_.resize(lanes::kLanes * scene.pairCount() + 1);
+  open_pairs_.resize(scene.pairCount() + 1);
   trials_.resize(std::size_t{lanes::kTests} * scene.pairCount(), lanes::Trial{});
   float* const first = floats_.data();
   float* const first_ball = first + frames + centers;
   return {first,          first + frames,
           first_ball,     first_ball + balls,
           placed_.data(), placed_.data() + model.instances.count,
-          open_.data(),   trials_.data()};
+          open_.data(),   open_pairs_.data(),
+          trials_.data()};
 }
 }  // namespace gpu_planning_scene::core

@@ -21,6 +21,7 @@ class LaneBuffers
   std::vector<float> floats_;
   std::vector<std::uint8_t> placed_;
   std::vector<std::uint32_t> open_;
+  std::vector<lanes::OpenPair> open_pairs_;
   std::vector<lanes::Trial> trials_;
 };
 }  // namespace gpu_planning_scene::core

@@ -19,8 +19,8 @@ struct Lanes
 {
   int active;  ///< bits: lanes with a state that is not known to collide
   Block& block;
-  std::uint32_t* open;
-  std::uint32_t pairs;
+  OpenPair* open;
+  std::uint32_t open_count = 0;
   Stage stage = Stage::JointTables;
   std::uint64_t since = 0;
 
@@ -47,13 +47,23 @@ struct Lanes
       block.stage[lane] = stage;
     }
   }
+  /// Without a branch, because it would often be taken in vain.
   void keepOpen(int lanes, std::uint32_t pair)
   {
-    for (lanes &= active; lanes != 0; lanes &= lanes - 1)
+    lanes &= active;
+    open[open_count] = {pair, static_cast<std::uint32_t>(lanes)};
+    open_count += lanes != 0 ? 1 : 0;
+  }
+  /// Writes the open pairs of a lane.
+  int listOpen(int lane, std::uint32_t* list) const
+  {
+    int count = 0;
+    for (std::uint32_t k = 0; k < open_count; ++k)
     {
-      const auto lane = static_cast<std::size_t>(__builtin_ctz(static_cast<unsigned>(lanes)));
-      open[lane * pairs + static_cast<unsigned>(block.open_count[lane]++)] = pair;
+      list[count] = open[k].pair;
+      count += static_cast<int>(open[k].lanes >> lane & 1U);
     }
+    return count;
   }
 };
 
@@ -204,6 +214,12 @@ inline void proveWorldPairsInAllLanes(const Model& model, const Scratch& scratch
   }
 }
 
+/// Room for the open pairs of one lane.
+inline std::uint32_t* openOf(const Model& model, const Scratch& scratch, int lane)
+{
+  return scratch.open + static_cast<std::size_t>(lane) * (model.self_pairs.count + model.world_pairs.count);
+}
+
 /// Proves the open pairs of one lane by the balls of the covers, the coarse ones first.
 template <bool kWithMargins>
 inline void proveByCovers(const Model& model, const Scratch& scratch, const MarginRows<kWithMargins>& margins, int lane,
@@ -218,7 +234,7 @@ inline void proveByCovers(const Model& model, const Scratch& scratch, const Marg
     return proveWorldPair(model, pair, margins.of(pair.instance, lane), balls, level);
   };
   const PlacedBalls balls(model, scratch, lane);
-  std::uint32_t* open = lanes.open + static_cast<std::size_t>(lane) * lanes.pairs;
+  std::uint32_t* open = openOf(model, scratch, lane);
   for (int level = 0; level < kLevels && lanes.block.open_count[lane] > 0; ++level)
   {
     lanes.begin(level == 0 ? Stage::FewBalls : Stage::ManyBalls);
@@ -249,7 +265,7 @@ template <bool kWithMargins>
 inline void proveBlock(const Model& model, const double* states, int count, const MarginRows<kWithMargins>& margins,
                        const Scratch& scratch, Block& block)
 {
-  Lanes lanes{(1 << count) - 1, block, scratch.open, model.self_pairs.count + model.world_pairs.count};
+  Lanes lanes{(1 << count) - 1, block, scratch.open_pairs};
   for (int lane = 0; lane < kLanes; ++lane)
   {
     block.proof[lane] = Proof::Apart;
@@ -268,6 +284,11 @@ inline void proveBlock(const Model& model, const double* states, int count, cons
     scratch.placed_boxes[i] = 0;
   proveSelfPairsInAllLanes(model, scratch, margins, lanes);
   proveWorldPairsInAllLanes(model, scratch, margins, lanes);
+  for (int left = lanes.active; left != 0; left &= left - 1)
+  {
+    const int lane = __builtin_ctz(static_cast<unsigned>(left));
+    block.open_count[lane] = lanes.listOpen(lane, openOf(model, scratch, lane));
+  }
   for (int lane = 0; lane < count; ++lane)
   {
     if ((lanes.active & (1 << lane)) == 0 || block.open_count[lane] == 0)

@@ -211,6 +211,13 @@ struct Trial
 constexpr int kTests = 1 + kLevels;
 constexpr int kBoxTest = 0;
 
+/// A pair without a proof in some lanes.
+struct OpenPair
+{
+  std::uint32_t pair;
+  std::uint32_t lanes;  ///< bits
+};
+
 /// Work space of one thread.
 struct Scratch
 {
@@ -221,6 +228,7 @@ struct Scratch
   std::uint8_t* placed;  ///< of each instance: which of these balls are set
   std::uint8_t* placed_boxes;  ///< of each instance: 1 if its box is set
   std::uint32_t* open;         ///< of each lane: the pairs without a proof; room for all pairs
+  OpenPair* open_pairs;        ///< of all lanes; room for all pairs
   Trial* trials;               ///< of each pair: its tests; all 0 at first, kept between calls
 };
 constexpr int kBallNumbers = 6 * kBalls;
