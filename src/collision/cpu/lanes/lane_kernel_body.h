@@ -47,7 +47,7 @@ struct Lanes
       block.stage[lane] = stage;
     }
   }
-  /// Without a branch, because it would often be taken in vain.
+  /// Without a branch, which would often be mispredicted.
   void keepOpen(int lanes, std::uint32_t pair)
   {
     lanes &= active;
@@ -175,7 +175,15 @@ inline void proveSelfPairsInAllLanes(const Model& model, const Scratch& scratch,
   }
 }
 
-/// Proves pairs with the world by enclosing balls, for all lanes at once.
+/// Whether a point is farther from a box than the margin along an axis. NaN is not.
+inline Ints isBeyond(const FrameBox& box, const Points& point, const Floats& margin)
+{
+  return (magnitude(point.x - box.center[0]) - margin > box.half[0]) |
+         (magnitude(point.y - box.center[1]) - margin > box.half[1]) |
+         (magnitude(point.z - box.center[2]) - margin > box.half[2]);
+}
+
+/// Proves pairs with the world by boxes and enclosing balls, for all lanes at once.
 template <bool kWithMargins>
 inline void proveWorldPairsInAllLanes(const Model& model, const Scratch& scratch,
                                       const MarginRows<kWithMargins>& margins, Lanes& lanes)
@@ -185,19 +193,17 @@ inline void proveWorldPairsInAllLanes(const Model& model, const Scratch& scratch
     const WorldGroup& group = model.world_groups[g];
     const Instance& instance = model.instances[group.instance];
     const Points center = centersOf(group.instance, scratch);
-    const Floats outside = margins.squaredSum(instance.outer, group.instance);
-    const auto is_near = [&](const FrameBox& box)
-    {
-      const Floats squared = squaredDistanceToBox(center.x - box.center[0], center.y - box.center[1],
-                                                  center.z - box.center[2], box.half);
-      return (bits(~(squared > outside)) & lanes.active) != 0;
-    };
-    if (!is_near(group.box))
+    const Floats to_group = squaredDistanceToBox(center.x - group.box.center[0], center.y - group.box.center[1],
+                                                 center.z - group.box.center[2], group.box.half);
+    if ((bits(~(to_group > margins.squaredSum(instance.outer, group.instance))) & lanes.active) == 0)
       continue;
-    // No branch for each pair: it would often be taken in vain.
+    // The boxes of the pairs are tested without a branch, which would often be mispredicted.
     std::uint32_t near = 0;  // bits: pairs of the group
     for (std::uint32_t w = group.first; w < group.end; ++w)
-      near |= static_cast<std::uint32_t>(is_near(model.world_pairs[w].box)) << (w - group.first);
+    {
+      const int inside = bits(~isBeyond(model.world_pairs[w].box, center, margins.of(group.instance)));
+      near |= ((inside & lanes.active) != 0 ? 1U : 0U) << (w - group.first);
+    }
     for (; near != 0 && lanes.active != 0; near &= near - 1)
     {
       const std::uint32_t w = group.first + static_cast<std::uint32_t>(__builtin_ctz(near));

@@ -103,7 +103,7 @@ struct BoxThresholds
   float parallel;  ///< to the absolute values of the relative rotation
 };
 
-/// A box along the axes of the planning frame.
+/// A box along the axes of the planning frame. Its half lengths include the rounding errors of a test.
 struct FrameBox
 {
   float center[3];
@@ -136,16 +136,15 @@ struct SelfGroup
   std::uint32_t end;
 };
 
-/// The box, in the planning frame, contains the object, grown by `enclosing`.
 struct WorldPair
 {
   std::uint32_t instance;
   std::uint32_t object;
   Thresholds thresholds;
-  FrameBox box;
+  FrameBox box;  ///< of the centres of the instance's enclosing ball at which it is not proven apart
 };
 
-/// Consecutive world pairs of one instance. The box contains theirs.
+/// Consecutive world pairs of one instance. The box contains their objects, grown by `enclosing`.
 struct WorldGroup
 {
   std::uint32_t instance;

@@ -301,7 +301,8 @@ void LaneScene::addSelfGroups(std::uint32_t first)
   }
 }
 
-/// A box of floats that contains a box, with the rounding errors of a test of it.
+/// Contains `bounds`, see FrameBox. The test has at most four rounded operations: see docs/error_bounds.md, "The lane
+/// kernel".
 lanes::FrameBox LaneScene::frameBox(const Eigen::AlignedBox3d& bounds) const
 {
   lanes::FrameBox box{};
@@ -356,7 +357,9 @@ void LaneScene::addWorld(const CollisionProblem& problem, const CpuForest& fores
           boundsWithin(object, instance_errors_[b].largest_distance + static_cast<double>(instances_[b].outer));
       world_bounds_.emplace_back(box.min() - growth, box.max() + growth);
       bounds.extend(world_bounds_.back());
-      world_pairs_.push_back({b, o, thresholds, frameBox(world_bounds_.back())});
+      const Vector3d radius = Vector3d::Constant(static_cast<double>(instances_[b].outer));
+      world_pairs_.push_back(
+          {b, o, thresholds, frameBox({world_bounds_.back().min() - radius, world_bounds_.back().max() + radius})});
       pairs_.push_back({b, static_cast<std::uint32_t>(problem.robot.size()) + o});
       if (world_pairs_.size() - first == kGroup)
       {
