@@ -301,8 +301,7 @@ void LaneScene::addSelfGroups(std::uint32_t first)
   }
 }
 
-/// Contains `bounds`, see FrameBox. The test has at most four rounded operations: see docs/error_bounds.md, "The lane
-/// kernel".
+/// Contains `bounds`, see FrameBox. For its rounding errors, see docs/error_bounds.md, "The lane kernel".
 lanes::FrameBox LaneScene::frameBox(const Eigen::AlignedBox3d& bounds) const
 {
   lanes::FrameBox box{};
