@@ -36,6 +36,13 @@ class WatchedCart : public testing::Test
   /// The robot at a place that was measured `age` seconds ago.
   Snapshot at(double place, double age = 0.0) const { return {scene_, {place}, {true}, {age}, {}, {}, 0, {0}}; }
 
+  /// Whether the trajectory has ended for a robot that is at this place so many seconds after the start.
+  bool hasEnded(double place, double seconds, Watched& cart) const
+  {
+    findPlace(at(place), kNow + ros::Duration(seconds), cart);
+    return cart.has_ended;
+  }
+
   Watched watched() { return watchedOf(request_, at(0.0), kNow, warnings_); }
 
   WatchTrajectory::Request request_;
@@ -62,18 +69,13 @@ TEST_F(WatchedCart, KeepsItsPlaceIfTheClockIsCorrectedAndLosesItIfASimulationBeg
 TEST_F(WatchedCart, HasArrivedIfItStandsWithinItsDeviationFromTheEnd)
 {
   Watched cart = watched();
-  const auto see = [&](double place, double seconds)
-  {
-    findPlace(at(place), kNow + ros::Duration(seconds), cart);
-    return cart.has_ended;
-  };
-  see(4.0, 4.0);
-  EXPECT_FALSE(see(0.05, 7.95));
-  EXPECT_FALSE(see(0.05, 8.1)) << "it may go on";
-  EXPECT_FALSE(see(0.03, 8.9));
-  EXPECT_FALSE(see(0.03, 9.8));
-  EXPECT_TRUE(see(0.03, 10.0));
-  EXPECT_TRUE(see(0.005, 10.1));
+  hasEnded(4.0, 4.0, cart);
+  EXPECT_FALSE(hasEnded(0.05, 7.95, cart));
+  EXPECT_FALSE(hasEnded(0.05, 8.1, cart)) << "it may go on";
+  EXPECT_FALSE(hasEnded(0.03, 8.9, cart));
+  EXPECT_FALSE(hasEnded(0.03, 9.8, cart));
+  EXPECT_TRUE(hasEnded(0.03, 10.0, cart));
+  EXPECT_TRUE(hasEnded(0.005, 10.1, cart));
 }
 
 TEST_F(WatchedCart, HasArrivedAlsoBetweenCloseRowsBeforeTheEnd)
@@ -86,18 +88,12 @@ TEST_F(WatchedCart, HasArrivedAlsoBetweenCloseRowsBeforeTheEnd)
     point.positions = {5.0 - rest};
   }
   Watched cart = watched();
-  const auto see = [&](double place, double seconds)
-  {
-    findPlace(at(place), kNow + ros::Duration(seconds), cart);
-    return cart.has_ended;
-  };
-  see(4.5, 4.5);
-  EXPECT_FALSE(see(4.97, 5.1));
-  EXPECT_TRUE(see(4.97, 6.2));
-  Watched other = watched();
-  cart = other;
-  see(4.5, 4.5);
-  EXPECT_TRUE(see(4.992, 5.1)) << "within 0.01 of the last row";
+  hasEnded(4.5, 4.5, cart);
+  EXPECT_FALSE(hasEnded(4.97, 5.1, cart));
+  EXPECT_TRUE(hasEnded(4.97, 6.2, cart));
+  cart = watched();
+  hasEnded(4.5, 4.5, cart);
+  EXPECT_TRUE(hasEnded(4.992, 5.1, cart)) << "within 0.01 of the last row";
 }
 
 TEST_F(WatchedCart, HasNotArrivedWhereItMayStillBeAtItsStart)
