@@ -212,12 +212,11 @@ std::vector<og::PathGeometric> Plan::knownPaths() const
   std::vector<double> row = query_.start;
   for (const std::shared_ptr<const KnownPaths::Path>& known : query_.known_paths->of(query_.group))
   {
+    if (known->front().size() != space_->variables().size())
+      continue;  // of another robot
     paths.emplace_back(information_);
     for (const std::vector<double>& values : *known)
     {
-      if (values.size() != space_->variables().size())
-        throw Error("a known path has " + std::to_string(values.size()) + " values in a row; group '" + query_.group +
-                    "' plans for " + std::to_string(space_->variables().size()) + " variables");
       for (std::size_t i = 0; i < values.size(); ++i)
         row[static_cast<std::size_t>(space_->variables()[i])] = values[i];
       space_->copyFromRow(row.data(), state.get());

@@ -177,7 +177,7 @@ SceneStore::SceneStore(PlanningScene scene, SceneDefaults defaults, SceneLimits 
 
 Snapshot SceneStore::snapshot() const
 {
-  // Asked before and after the scene is read: a fault that begins or ends meanwhile counts.
+  // A fault that begins or ends while the scene is read counts.
   std::string fault = octomapFault();
   Snapshot now;
   {
@@ -192,8 +192,8 @@ Snapshot SceneStore::snapshot() const
     now = {scene_, state_, known_, ages, {}, {}, oldest == std::numeric_limits<std::int64_t>::max() ? 0 : oldest,
            stamps_};
   }
-  now.base = assumeBase(0, now.known, now.state);
   now.octomap_fault = fault.empty() ? octomapFault() : std::move(fault);
+  now.base = assumeBase(0, now.known, now.state);
   return now;
 }
 

@@ -230,13 +230,15 @@ TEST_F(KnownWay, DoesNotChangeThePathOfASeed)
   EXPECT_EQ(plan<BatchRrtConnect>(kTwoGaps, there).waypoints, first);
 }
 
-TEST_F(KnownWay, OfAGroupWithOtherVariablesIsRefused)
+TEST_F(KnownWay, OfAnotherRobotIsLeftOut)
 {
   const auto robot = robotOf(
       "<link name='base'/>" + boxLink("wheel") + jointXml("turn", "continuous", "base", "wheel", "<axis xyz='0 0 1'/>"),
       R"(<group name="plane"><joint name="turn"/></group>)");
   known->add(std::make_shared<GroupStateSpace>(robot, "plane"), {{0.0}, {1.0}, {2.0}});
-  EXPECT_THROW(plan<BatchRrtConnect>({}, there), Error);
+  EXPECT_EQ(plan<BatchRrtConnect>({}, there).status, PlanningStatus::Solved);
+  add(kWay);
+  EXPECT_EQ(known->of("plane").size(), 1u);
 }
 
 TEST(PlanMotion, CountsTheLookAtStartAndGoals)

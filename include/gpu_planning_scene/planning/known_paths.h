@@ -30,6 +30,7 @@ class KnownPaths
   /// Adds the waypoints of a path of the space's group: rows with one value per variable of the robot. A straight
   /// motion is not kept, because a planner tries it anyway. The path replaces one between the same two states (to
   /// 1e-3, by the distance of the space), in either direction. If there are too many paths, the oldest one goes.
+  /// Paths with another number of variables, of another robot, go too.
   void add(const std::shared_ptr<GroupStateSpace>& space, const std::vector<std::vector<double>>& waypoints);
 
   /// The paths of a group, the newest first.

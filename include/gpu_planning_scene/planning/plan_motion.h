@@ -48,7 +48,7 @@ struct PlanningQuery
   /// after the other.
   std::uint32_t seed = 0;
   /// A planner that can (TriesKnownPaths) tries these paths first, unless there is a seed. Add the path of the result
-  /// (KnownPaths::add) if its status is Solved. Null: none.
+  /// (KnownPaths::add) if its status is Solved. Paths with another number of variables are left out. Null: none.
   std::shared_ptr<KnownPaths> known_paths = nullptr;
 };
 
@@ -83,8 +83,8 @@ struct PlanningResult
 /// planner reacts. Thread-safe if each call has a checker of its own. Throws Error for an unknown group, parameter or
 /// projection joint; for a row with a wrong length or a value that is not finite; for an angle of the start or a
 /// goal beyond 1e6 rad (continuous and planar joints); for a goal that moves a variable outside the group; without a
-/// goal; for goal regions or path constraints that are not valid or that the group cannot influence; for known paths
-/// of a group with another number of variables; and for times beyond their limits.
+/// goal; for goal regions or path constraints that are not valid or that the group cannot influence; and for times
+/// beyond their limits.
 /// Errors of GroupStateSpace and MotionChecker, and exceptions of the planner, pass through.
 PlanningResult planMotion(const std::shared_ptr<const PlanningScene>& scene,
                           const std::shared_ptr<StateChecker>& checker, const PlanningQuery& query,

@@ -11,7 +11,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kOldAge = 1.0;  // seconds; localisation and odometry publish many times in this time
+constexpr double kLargestAdvance = 2.5;  // seconds: localisation may publish for a time that is still to come
+constexpr double kOldAge = 1.0;          // seconds; localisation and odometry publish many times in this time
 
 /// The values of the virtual joint, and a warning if it cannot reach the pose. Only a planar joint cannot. MoveIt, too,
 /// leaves out the rest of the pose.
@@ -99,10 +100,11 @@ AssumedBase BaseFromTf::thatOf(std::int64_t stamp)
               " s before the newest transform " + frames() + " is not available on tf");
 }
 
-/// Seconds; 0 for a static transform, which has no stamp.
+/// Seconds; 0 for a static transform, which has no stamp; infinite for one from before a simulation began again.
 double BaseFromTf::ageOf(const FrameLookup::Found& found) const
 {
-  return found.stamp == 0 ? 0.0 : 1e-9 * static_cast<double>(now_() - found.stamp);
+  const double age = found.stamp == 0 ? 0.0 : 1e-9 * static_cast<double>(now_() - found.stamp);
+  return age < -kLargestAdvance ? std::numeric_limits<double>::infinity() : age;
 }
 
 AssumedBase BaseFromTf::newest()
@@ -131,9 +133,9 @@ AssumedBase BaseFromTf::newest()
     if (!newest_)
       return {{}, "tf has no transform " + frames()};
     AssumedBase base = valuesAt(*joint_, newest_->pose);
-    base.age = ageOf(*newest_);
-    if (newest_->stamp == 0 || base.age < 0.0)  // it was static, or from before a simulation began again
-      base.age = std::numeric_limits<double>::infinity();
+    base.age = newest_->stamp == 0 ? std::numeric_limits<double>::infinity() : ageOf(*newest_);
+    if (std::isinf(base.age))
+      newest_->stamp = 0;  // also when a clock that was set back comes to this time again
     base.warning = "the robot's pose comes from tf, which has lost the transform " + frames() +
                    "; the last one that it had is used";
     return base;

@@ -72,10 +72,12 @@ std::uint64_t SensedMap::exclude(const std::set<std::string>& objects)
   return publish();
 }
 
-std::uint64_t SensedMap::clear()
+std::uint64_t SensedMap::clear(const std::function<void()>& cleared)
 {
   const std::lock_guard<std::mutex> lock(mutex_);
   map_.clear();
+  if (cleared)
+    cleared();
   return publish();
 }
 

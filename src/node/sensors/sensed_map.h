@@ -39,8 +39,8 @@ class SensedMap
   /// of the scene without them. Throws Error if the scene has no such object.
   std::uint64_t exclude(const std::set<std::string>& objects);
 
-  /// Forgets all voxels. Returns the revision of the scene without them.
-  std::uint64_t clear();
+  /// Forgets all voxels. Calls `cleared` before the scene lacks them. Returns the revision of the scene without them.
+  std::uint64_t clear(const std::function<void()>& cleared = {});
 
   /// Brings the scene up to date without a measurement: voxels that the robot has left are whole again, and voxels of
   /// objects that were attached are removed. An error is logged, not thrown.

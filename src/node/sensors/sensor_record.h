@@ -15,7 +15,7 @@ struct SensorRecord
   std::uint64_t dropped = 0;
   std::uint64_t rejected = 0;
   ros::SteadyTime used_at = ros::SteadyTime::now();  ///< of the last used measurement; before it, the start
-  bool has_measured = false;                         ///< since the last call of forget(), or the start
+  bool has_measured = false;                         ///< since the last call of distrust() or forget()
   bool silence_is_logged = false;
   std::string fault;         ///< of the last measurement; empty if it was used
   std::string loss;          ///< the last one, see lose(); empty: none since the octomap was cleared
@@ -30,7 +30,9 @@ struct SensorRecord
   /// Counts a measurement that is not in the scene. `why`: one line.
   void reject(const std::string& why);
 
-  /// The octomap was cleared: nothing is known until the next measurement, and nothing is lost.
+  /// The octomap may be without this sensor's measurements: nothing is known until the next one.
+  void distrust() { has_measured = false; }
+  /// The octomap is empty: nothing is known until the next measurement, and nothing is lost.
   void forget();
 
   /// Why the octomap may lack what this sensor measures, in one line: no measurement was used in the last `seconds`, or

@@ -181,12 +181,12 @@ void Sensors::run()
 /// Uses the measurement of a sensor. Returns false if there is none, or if it still waits for its frame.
 bool Sensors::take(Sensor& sensor)
 {
-  std::uint64_t clears = 0;
+  std::uint64_t distrusted = 0;
   {
     const std::lock_guard<std::mutex> lock(waiting_mutex_);
     if (!sensor.current)
       sensor.current = std::exchange(sensor.waiting, std::nullopt);
-    clears = clears_;
+    distrusted = distrusted_;
   }
   if (!sensor.current)
     return false;
@@ -217,8 +217,8 @@ bool Sensors::take(Sensor& sensor)
     sensor.record.reject(fault.message);
   else
     sensor.record.use(header.stamp.isZero() ? 0.0 : ageOf(header));
-  if (clears != clears_)  // the measurement may be among what was cleared
-    sensor.record.forget();
+  if (distrusted != distrusted_)  // the measurement may be among what was cleared
+    sensor.record.distrust();
   return true;
 }
 
@@ -284,19 +284,25 @@ Clear::Response Sensors::clear()
   return respond<Clear::Response>(
       [&](Clear::Response& response)
       {
-        // Nobody may take an empty map for a free world: before it is empty, and after a measurement that came between.
-        forgetMeasurements();
-        response.scene_revision = map_.clear();
-        forgetMeasurements();
+        // Nobody may take an empty map for a free world, also not if a measurement came before the map was cleared.
+        distrustAll();
+        response.scene_revision = map_.clear(
+            [this]
+            {
+              const std::lock_guard<std::mutex> lock(waiting_mutex_);
+              for (const std::unique_ptr<Sensor>& sensor : sensors_)
+                sensor->record.forget();
+            });
+        distrustAll();
       });
 }
 
-void Sensors::forgetMeasurements()
+void Sensors::distrustAll()
 {
   const std::lock_guard<std::mutex> lock(waiting_mutex_);
-  ++clears_;
+  ++distrusted_;
   for (const std::unique_ptr<Sensor>& sensor : sensors_)
-    sensor->record.forget();
+    sensor->record.distrust();
 }
 
 /// The first fault of a sensor. Empty: there is none.

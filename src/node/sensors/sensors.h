@@ -77,7 +77,7 @@ class Sensors
   bool take(Sensor& sensor);
   void use(Sensor& sensor);
   void noteLoss(Sensor& sensor, std::size_t voxels);
-  void forgetMeasurements();
+  void distrustAll();
   void publishStatus();
   std::string octomapFault();
 
@@ -91,7 +91,7 @@ class Sensors
   std::mutex waiting_mutex_;
   std::condition_variable arrived_;
   std::vector<std::unique_ptr<Sensor>> sensors_;
-  std::uint64_t clears_ = 0;  // calls of forgetMeasurements()
+  std::uint64_t distrusted_ = 0;  // calls of distrustAll()
   bool stopping_ = false;
 
   Endpoints topics_;

@@ -216,11 +216,12 @@ void findPlace(const Snapshot& scene, const ros::Time& now, Watched& watched)
     watched.age = age;
     const double from_end = deviationAt(robot, trajectory, values, end);
     const bool has_arrived = from_end <= kArrived && isRestWithin(robot, trajectory, progress.time, kArrived);
-    // Controllers stop within a tolerance of the goal. A robot that has never been far from it may still be at its
-    // start.
-    const bool may_have_arrived = from_end <= watched.max_deviation &&
-                                  isRestWithin(robot, trajectory, progress.time, watched.max_deviation) &&
-                                  !isWholeWithin(robot, trajectory, watched.max_deviation);
+    // Controllers stop within a tolerance of the goal. A robot that has never been far from it must be nearer to it
+    // than to its start.
+    const bool has_left = !isWholeWithin(robot, trajectory, watched.max_deviation) ||
+                          deviationAt(robot, trajectory, values, trajectory.rows.seconds.front()) > from_end + kArrived;
+    const bool may_have_arrived = from_end <= watched.max_deviation && has_left &&
+                                  isRestWithin(robot, trajectory, progress.time, watched.max_deviation);
     watched.has_ended =
         by_clock >= end && (has_arrived || (may_have_arrived && standsFor(values, now, watched) >= kStopped));
   }

@@ -64,7 +64,11 @@ void KnownPaths::add(const std::shared_ptr<GroupStateSpace>& space, const std::v
   const std::lock_guard<std::mutex> lock(mutex_);
   Paths& paths = by_group_[space->group().name];
   paths.erase(std::remove_if(paths.begin(), paths.end(),
-                             [&](const auto& known) { return comparison.haveSameEnds(*known, path); }),
+                             [&](const auto& known)
+                             {
+                               const bool is_of_another_robot = known->front().size() != path.front().size();
+                               return is_of_another_robot || comparison.haveSameEnds(*known, path);
+                             }),
               paths.end());
   paths.insert(paths.begin(), std::make_shared<const Path>(std::move(path)));
   paths.resize(std::min(paths.size(), capacity_));

@@ -38,6 +38,8 @@ TEST(SensorRecord, HasAFaultFromALossUntilTheOctomapIsCleared)
   record.use(0.1);
   EXPECT_TRUE(hasFault(record, "sensor /camera: 5 voxels found no room"));
   EXPECT_TRUE(hasFault(record, "5 voxels found no room", 0.0));
+  record.distrust();
+  EXPECT_TRUE(hasFault(record, "5 voxels found no room"));
   record.forget();
   EXPECT_TRUE(hasFault(record, "was used since the octomap was cleared"));
   record.use(0.1);

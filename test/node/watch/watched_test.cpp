@@ -102,12 +102,10 @@ TEST_F(WatchedCart, HasNotArrivedWhereItMayStillBeAtItsStart)
   request_.joint_trajectory.points[1].positions = {0.08};
   Watched cart = watched();
   for (const double seconds : {4.1, 6.0, 60.0})
-  {
-    findPlace(at(0.0), kNow + ros::Duration(seconds), cart);
-    EXPECT_FALSE(cart.has_ended) << seconds;
-  }
-  findPlace(at(0.075), kNow + ros::Duration(61.0), cart);
-  EXPECT_TRUE(cart.has_ended);
+    EXPECT_FALSE(hasEnded(0.0, seconds, cart)) << seconds;
+  EXPECT_FALSE(hasEnded(0.06, 61.0, cart));
+  EXPECT_TRUE(hasEnded(0.06, 62.5, cart)) << "it has left its start";
+  EXPECT_TRUE(hasEnded(0.075, 63.0, cart));
 }
 
 TEST_F(WatchedCart, BeginsAtTheCurrentStateOnlyIfThisIsMeasuredNow)

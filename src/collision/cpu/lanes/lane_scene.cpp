@@ -17,7 +17,7 @@ using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr std::size_t kGroup = 8;  // world pairs of a group
+constexpr std::size_t kGroup = 8;  // world pairs of a group: at most 32, the bits of the kernel
 
 void writeBall(const Vector3d& center, float radius, int place, lanes::Balls& balls)
 {

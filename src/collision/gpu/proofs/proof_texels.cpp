@@ -183,7 +183,8 @@ class Writer
     // Half a step more covers the rounding of the shader.
     const auto step = [&group](double place, std::size_t axis)
     {
-      return (place - static_cast<double>(group.box.center[axis])) / static_cast<double>(group.box.half[axis]) * BOX_STEPS +
+      return (place - static_cast<double>(group.box.center[axis])) / static_cast<double>(group.box.half[axis]) *
+                 BOX_STEPS +
              BOX_STEPS;
     };
     ProofTexel texel = {};
