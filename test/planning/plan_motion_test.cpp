@@ -175,14 +175,14 @@ class KnownWay : public testing::Test
  protected:
   KnownWay()
   {
-    there.known_paths = known;
-    there.parameters = {{"max_rounds", "1"}};  // the straight motion, and known paths
-    there.seconds = 0.5;                       // for the proof of a path that ends near the goal
+    there_.known_paths = known_;
+    there_.parameters = {{"max_rounds", "1"}};  // the straight motion, and known paths
+    there_.seconds = 0.5;                       // for the proof of a path that ends near the goal
   }
 
   PlanningQuery back() const
   {
-    PlanningQuery turned = there;
+    PlanningQuery turned = there_;
     std::swap(turned.start, turned.goals[0]);
     return turned;
   }
@@ -190,21 +190,21 @@ class KnownWay : public testing::Test
   void add(const std::vector<std::vector<double>>& waypoints)
   {
     const PointRobot robot({});
-    known->add(std::make_shared<GroupStateSpace>(robot.scene()->robot, "plane"), waypoints);
+    known_->add(std::make_shared<GroupStateSpace>(robot.scene()->robot, "plane"), waypoints);
   }
 
   inline static const std::vector<Wall> kTwoGaps = {{-0.5, -3.0, -0.3, 1.7}, {0.3, -1.7, 0.5, 3.0}};
   inline static const std::vector<std::vector<double>> kWay = {{-1.0, 0.0}, {-1.0, 1.9}, {0.0, 1.9},
                                                                {0.0, -1.9}, {1.0, -1.9}, {1.0, 0.0}};
-  std::shared_ptr<KnownPaths> known = std::make_shared<KnownPaths>(4);
-  PlanningQuery there = query({-1.0, 0.0}, {{1.0, 0.0}});
+  std::shared_ptr<KnownPaths> known_ = std::make_shared<KnownPaths>(4);
+  PlanningQuery there_ = query({-1.0, 0.0}, {{1.0, 0.0}});
 };
 
 TEST_F(KnownWay, IsTriedFirstInBothDirections)
 {
-  EXPECT_NE(plan<BatchRrtConnect>(kTwoGaps, there).status, PlanningStatus::Solved);
+  EXPECT_NE(plan<BatchRrtConnect>(kTwoGaps, there_).status, PlanningStatus::Solved);
   add(kWay);
-  for (const PlanningQuery& wanted : {there, back()})
+  for (const PlanningQuery& wanted : {there_, back()})
   {
     const PlanningResult result = plan<BatchRrtConnect>(kTwoGaps, wanted);
     EXPECT_EQ(result.status, PlanningStatus::Solved) << result.message;
@@ -217,17 +217,17 @@ TEST_F(KnownWay, IsNotTakenWhereTheSceneBlocksIt)
   add(kWay);
   std::vector<Wall> walls = kTwoGaps;
   walls.push_back({-0.2, -0.2, 0.2, 0.2});
-  EXPECT_NE(plan<BatchRrtConnect>(walls, there).status, PlanningStatus::Solved);
+  EXPECT_NE(plan<BatchRrtConnect>(walls, there_).status, PlanningStatus::Solved);
 }
 
 TEST_F(KnownWay, DoesNotChangeThePathOfASeed)
 {
-  there.seed = 7;
-  there.parameters.clear();
-  there.seconds = 20.0;
-  const auto first = plan<BatchRrtConnect>(kTwoGaps, there).waypoints;
+  there_.seed = 7;
+  there_.parameters.clear();
+  there_.seconds = 20.0;
+  const auto first = plan<BatchRrtConnect>(kTwoGaps, there_).waypoints;
   add(kWay);
-  EXPECT_EQ(plan<BatchRrtConnect>(kTwoGaps, there).waypoints, first);
+  EXPECT_EQ(plan<BatchRrtConnect>(kTwoGaps, there_).waypoints, first);
 }
 
 TEST_F(KnownWay, OfAnotherRobotIsLeftOut)
@@ -235,10 +235,10 @@ TEST_F(KnownWay, OfAnotherRobotIsLeftOut)
   const auto robot = robotOf(
       "<link name='base'/>" + boxLink("wheel") + jointXml("turn", "continuous", "base", "wheel", "<axis xyz='0 0 1'/>"),
       R"(<group name="plane"><joint name="turn"/></group>)");
-  known->add(std::make_shared<GroupStateSpace>(robot, "plane"), {{0.0}, {1.0}, {2.0}});
-  EXPECT_EQ(plan<BatchRrtConnect>({}, there).status, PlanningStatus::Solved);
+  known_->add(std::make_shared<GroupStateSpace>(robot, "plane"), {{0.0}, {1.0}, {2.0}});
+  EXPECT_EQ(plan<BatchRrtConnect>({}, there_).status, PlanningStatus::Solved);
   add(kWay);
-  EXPECT_EQ(known->of("plane").size(), 1u);
+  EXPECT_EQ(known_->of("plane").size(), 1u);
 }
 
 TEST(PlanMotion, CountsTheLookAtStartAndGoals)

@@ -101,9 +101,9 @@ std::string definitionOf()
 }
 
 template <class Ours, class Theirs>
-LayoutPair pairOf(std::size_t only_ours = 0)
+LayoutPair pairOf(const std::string& first_own = {})
 {
-  return {ros::message_traits::DataType<Theirs>::value(), definitionOf<Ours>(), definitionOf<Theirs>(), only_ours};
+  return {ros::message_traits::DataType<Theirs>::value(), definitionOf<Ours>(), definitionOf<Theirs>(), first_own};
 }
 
 /// StateValidityRequest is no message of ROS, so it has no definition of its own.
@@ -132,7 +132,9 @@ void requireEqualLayouts(const LayoutPair& pair)
 {
   std::vector<std::string> our_layout = layoutOf(pair.ours);
   const std::vector<std::string> their_layout = layoutOf(pair.theirs);
-  our_layout.resize(our_layout.size() - std::min(our_layout.size(), pair.only_ours));
+  const auto is_first_own = [&pair](const std::string& field)
+  { return !pair.first_own.empty() && field.substr(field.find_last_of(" .") + 1) == pair.first_own; };
+  our_layout.erase(std::find_if(our_layout.begin(), our_layout.end(), is_first_own), our_layout.end());
   const auto [our, their] =
       std::mismatch(our_layout.begin(), our_layout.end(), their_layout.begin(), their_layout.end());
   if (our == our_layout.end() && their == their_layout.end())
@@ -144,17 +146,17 @@ void requireEqualLayouts(const LayoutPair& pair)
 
 std::vector<LayoutPair> moveItLayouts()
 {
-  constexpr std::size_t kOnlyOurs = 11;  // of a planning scene: from scene_revision on
-  return {pairOf<PlanningSceneMessage, moveit_msgs::PlanningScene>(kOnlyOurs),
+  const std::string own_of_scene = "scene_revision";
+  return {pairOf<PlanningSceneMessage, moveit_msgs::PlanningScene>(own_of_scene),
           pairOf<CollisionObject, moveit_msgs::CollisionObject>(),
           pairOf<AttachedCollisionObject, moveit_msgs::AttachedCollisionObject>(),
           pairOf<PlanningSceneWorld, moveit_msgs::PlanningSceneWorld>(),
           pairOf<GetPlanningScene::Request, moveit_msgs::GetPlanningScene::Request>(),
           {ros::message_traits::DataType<moveit_msgs::GetPlanningScene::Response>::value(), sceneOfResponse(),
-           definitionOf<moveit_msgs::GetPlanningScene::Response>(), kOnlyOurs},
-          pairOf<ApplyPlanningScene::Request, moveit_msgs::ApplyPlanningScene::Request>(kOnlyOurs),
+           definitionOf<moveit_msgs::GetPlanningScene::Response>(), own_of_scene},
+          pairOf<ApplyPlanningScene::Request, moveit_msgs::ApplyPlanningScene::Request>(own_of_scene),
           {ros::message_traits::DataType<moveit_msgs::GetStateValidity::Request>::value(), stateValidityDefinition(),
-           definitionOf<moveit_msgs::GetStateValidity::Request>(), 0}};
+           definitionOf<moveit_msgs::GetStateValidity::Request>(), ""}};
 }
 
 void requireMoveItLayouts()

@@ -13,10 +13,10 @@ std::vector<std::string> layoutOf(const std::string& definition);
 /// A message of moveit_msgs and the message of this package as which its bytes are read or written.
 struct LayoutPair
 {
-  std::string name;           ///< of MoveIt's message
-  std::string ours;           ///< definition, as for layoutOf()
-  std::string theirs;         ///< definition of MoveIt's message
-  std::size_t only_ours = 0;  ///< number of fields at the end of our message that MoveIt's message lacks
+  std::string name;            ///< of MoveIt's message
+  std::string ours;            ///< definition, as for layoutOf()
+  std::string theirs;          ///< definition of MoveIt's message
+  std::string first_own = {};  ///< field of our message that MoveIt's lacks, with all that follow it; empty: none
 };
 
 /// Throws Error if the two layouts differ; it names the message and the first difference.

@@ -74,7 +74,7 @@ void passFields(Stream& stream, Message& message)
   using Plain = std::remove_const_t<Message>;
   if constexpr (std::is_same_v<Plain, PlanningSceneMessage>)
   {
-    // All fields but the last six, from scene_revision on.
+    // All fields before scene_revision: see layouts.cpp.
     stream.next(message.name);
     stream.next(message.robot_state);
     stream.next(message.robot_model_name);

@@ -117,7 +117,7 @@ class RouteWriter
         goTo(*route.path, {state, 0.0});
     goTo(*route.path, route.goal);
     goTo(route.goal.state);
-    return std::move(route_);
+    return route_;
   }
 
  private:

@@ -111,11 +111,11 @@ class KnownRoutes : public testing::Test
   {
     std::vector<PathGeometric> paths;
     for (const std::vector<Position>& positions : known)
-      paths.push_back(robot.path(positions));
-    const ob::ScopedState<> from = robot.at(start);
-    const ob::ScopedState<> to = robot.at(goal);
+      paths.push_back(robot_.path(positions));
+    const ob::ScopedState<> from = robot_.at(start);
+    const ob::ScopedState<> to = robot_.at(goal);
     std::vector<std::vector<Position>> found;
-    for (PathGeometric& route : knownRoutes(robot.information(), paths, {from.get()}, {to.get()}, kRange))
+    for (PathGeometric& route : knownRoutes(robot_.information(), paths, {from.get()}, {to.get()}, kRange))
     {
       found.emplace_back();
       for (const ob::State* state : route.getStates())
@@ -143,7 +143,7 @@ class KnownRoutes : public testing::Test
     return largest;
   }
 
-  const PointRobot robot{{}};
+  const PointRobot robot_{{}};
 };
 
 TEST_F(KnownRoutes, LeadFromTheStartToTheGoalInMotionsWithinTheRange)
@@ -192,10 +192,10 @@ TEST_F(KnownRoutes, AreTheTwoNearestPathsAndNoneThatIsFarAway)
 
 TEST_F(KnownRoutes, AreNotLongerThanAPlanHasTimeFor)
 {
-  const ob::ScopedState<> from = robot.at(kOver.front());
-  const ob::ScopedState<> to = robot.at(kOver.back());
+  const ob::ScopedState<> from = robot_.at(kOver.front());
+  const ob::ScopedState<> to = robot_.at(kOver.back());
   const auto with_range = [&](double range)
-  { return knownRoutes(robot.information(), {robot.path(kOver)}, {from.get()}, {to.get()}, range); };
+  { return knownRoutes(robot_.information(), {robot_.path(kOver)}, {from.get()}, {to.get()}, range); };
   EXPECT_EQ(with_range(0.01).size(), 1u);
   EXPECT_TRUE(with_range(1e-9).empty());
 }
