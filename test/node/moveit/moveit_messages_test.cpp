@@ -226,7 +226,9 @@ TEST(Layouts, OfATypeThatIsDefinedTwiceTheFirstDefinitionCounts)
 TEST(Layouts, ADifferentLayoutIsRefusedWithBothFields)
 {
   const std::string ours = "string id\nfloat64 weight\nuint32 KIND=1\nuint64 revision\n";
-  const auto refusal = [&ours](const std::string& theirs) { return refusalOf({"theirs/Item", ours, theirs, 1}); };
+  const auto refusal = [&ours](const std::string& theirs) {
+    return refusalOf({"theirs/Item", ours, theirs, "revision"});
+  };
   EXPECT_EQ("", refusal("string id\nfloat64 weight\nuint32 KIND=1\n"));
   EXPECT_EQ(0U,
             refusal("string id\nfloat32 weight\nuint32 KIND=1\n")
