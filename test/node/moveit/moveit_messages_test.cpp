@@ -214,7 +214,7 @@ TEST(Layouts, NamesOfPackagesAndOfEqualTypesDoNotCount)
   const std::string theirs = "theirs/Item[] items\nint8 ADD = 0\nint8 operation\n====\nMSG: theirs/Item\nstring id\n";
   EXPECT_EQ((std::vector<std::string>{"Item[] items", "string items.id", "int8 ADD=0", "int8 operation"}),
             layoutOf(ours));
-  EXPECT_NO_THROW(requireEqualLayouts({"theirs/Items", ours, theirs, 0}));
+  EXPECT_NO_THROW(requireEqualLayouts({"theirs/Items", ours, theirs, ""}));
 }
 
 TEST(Layouts, OfATypeThatIsDefinedTwiceTheFirstDefinitionCounts)
