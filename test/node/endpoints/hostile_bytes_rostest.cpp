@@ -35,6 +35,7 @@ class RawClient
     if (!ros::ServiceManager::instance()->lookupService(service, host, port))
       throw std::runtime_error("no service " + service);
     addrinfo hints{};
+    hints.ai_family = AF_INET;  // roscpp does not listen to IPv6, which Debian's "localhost" names too
     hints.ai_socktype = SOCK_STREAM;
     addrinfo* found = nullptr;
     if (getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found) != 0)
