@@ -11,8 +11,8 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr double kLargestAdvance = 2.5;  // seconds: localisation may publish for a time that is still to come
-constexpr double kOldAge = 1.0;          // seconds; localisation and odometry publish many times in this time
+constexpr double kLargestLead = 2.5;  // seconds: localisation may publish for a time that is still to come
+constexpr double kOldAge = 1.0;       // seconds; localisation and odometry publish many times in this time
 
 /// The values of the virtual joint, and a warning if it cannot reach the pose. Only a planar joint cannot. MoveIt, too,
 /// leaves out the rest of the pose.
@@ -104,7 +104,7 @@ AssumedBase BaseFromTf::thatOf(std::int64_t stamp)
 double BaseFromTf::ageOf(const FrameLookup::Found& found) const
 {
   const double age = found.stamp == 0 ? 0.0 : 1e-9 * static_cast<double>(now_() - found.stamp);
-  return age < -kLargestAdvance ? std::numeric_limits<double>::infinity() : age;
+  return age < -kLargestLead ? std::numeric_limits<double>::infinity() : age;
 }
 
 AssumedBase BaseFromTf::newest()

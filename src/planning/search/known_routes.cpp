@@ -26,7 +26,7 @@ constexpr double kMostSteps = 64.0;
 constexpr double kMostStates = 2000.0;
 
 /// A place on a path: on the motion from state `motion` to the next one, at this fraction of it.
-struct Place
+struct PathPlace
 {
   std::size_t motion = 0;
   double fraction = 0.0;
@@ -37,8 +37,8 @@ struct Place
 struct Route
 {
   const PathGeometric* path;
-  Place start;
-  Place goal;
+  PathPlace start;
+  PathPlace goal;
   double lines() const { return start.distance + goal.distance; }
 };
 
@@ -82,7 +82,7 @@ class NearestPlaces
     return path.getState(static_cast<unsigned int>(number));
   }
 
-  void take(const std::vector<const ob::State*>& states, std::size_t motion, double fraction, Place& nearest)
+  void take(const std::vector<const ob::State*>& states, std::size_t motion, double fraction, PathPlace& nearest)
   {
     for (const ob::State* state : states)
       if (const double distance = information_->distance(state, state_.get()); distance < nearest.distance)
@@ -121,7 +121,7 @@ class RouteWriter
   }
 
  private:
-  void goTo(const PathGeometric& path, const Place& place)
+  void goTo(const PathGeometric& path, const PathPlace& place)
   {
     const auto motion = static_cast<unsigned int>(place.motion);
     information_->getStateSpace()->interpolate(path.getState(motion), path.getState(motion + 1), place.fraction,
