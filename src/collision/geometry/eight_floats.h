@@ -31,7 +31,7 @@ inline Floats load(const float* from)
 /// Four floats in both halves.
 inline Floats loadTwice(const float* from)
 {
-#ifdef GPS_AVX
+#if defined(GPS_AVX) && !defined(__clang__)  // clang has no such function, and finds the instruction itself
   typedef float Four __attribute__((vector_size(16)));
   Four loaded;
   __builtin_memcpy(&loaded, from, sizeof loaded);
