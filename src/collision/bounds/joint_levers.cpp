@@ -9,9 +9,6 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-// More balls give tighter bounds, but a motion takes longer.
-constexpr std::size_t kLeverBalls = 8;
-
 /// The largest distance of a region from the joint's axis. The region is in the frame of the joint's child link.
 double armOf(const Joint& joint, const Region& region)
 {

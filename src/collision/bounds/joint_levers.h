@@ -14,6 +14,9 @@ namespace gpu_planning_scene::core
 {
 constexpr double kUnboundedArm = std::numeric_limits<double>::infinity();
 
+/// More balls give tighter bounds, but a motion takes longer.
+constexpr int kLeverBalls = 8;
+
 /// How far the joints between the root and an instance can move the instance's points.
 struct LeverChain
 {
@@ -26,7 +29,8 @@ struct LeverChain
     /// limits, or kUnboundedArm.
     double largest_arm = 0.0;
   };
-  std::vector<Ball> balls;  ///< they contain the instance; in the frame of its link. None if they are too large
+  /// At most kLeverBalls balls that contain the instance, in the frame of its link. None if they are too large.
+  std::vector<Ball> balls;
   std::vector<Step> steps;  ///< from the instance's link up to the root
 };
 

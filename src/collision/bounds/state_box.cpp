@@ -25,29 +25,46 @@ void StateBox::set(const double* center, const JointTravel* travel, double sprea
     robot_.linkPoses(center, poses_.data());
 }
 
-/// Metres: the largest distance of the instance's points from the axis of the step's joint in the box. `beyond`: the
-/// largest displacement in the box of these points by the joints below.
-double StateBox::armOf(const LeverChain& chain, const LeverChain::Step& step, double beyond) const
+/// The chain's balls in the centre of the box, in the planning frame. A chain with fewer balls has its first one
+/// several times.
+StateBox::PlacedBalls StateBox::place(const LeverChain& chain) const
 {
-  if (!(beyond < step.largest_arm))
-    return step.largest_arm;
   const Eigen::Isometry3d& body = poses_[static_cast<std::size_t>(chain.steps.front().link)];
-  const Eigen::Isometry3d& frame = poses_[static_cast<std::size_t>(step.link)];
-  Eigen::Vector3d axis = Eigen::Vector3d::Zero();  // a floating joint may turn about any axis through the origin
-  if (step.type != JointType::Floating)
-    axis = frame.linear() * robot_.joints()[static_cast<std::size_t>(step.joint)].axis;
-  double arm = 0.0;
-  for (const Ball& ball : chain.balls)
+  PlacedBalls balls;
+  for (int i = 0; i < kLeverBalls; ++i)
   {
-    const Eigen::Vector3d center = body * ball.center - frame.translation();
-    arm = std::max(arm, (center - axis.dot(center) * axis).norm() + ball.radius);
+    const auto number = static_cast<std::size_t>(i);
+    const Ball& ball = chain.balls[number < chain.balls.size() ? number : 0];
+    balls.centers.row(i) = (body * ball.center).transpose();
+    balls.radii[i] = ball.radius;
   }
+  return balls;
+}
+
+/// Metres: the largest distance of the balls' points from the axis of the step's joint in the box. `beyond`: the
+/// largest displacement in the box of these points by the joints below.
+double StateBox::armOf(const PlacedBalls& balls, const LeverChain::Step& step, double beyond) const
+{
+  const Eigen::Isometry3d& frame = poses_[static_cast<std::size_t>(step.link)];
+  const PlacedBalls::Numbers x = balls.centers.col(0) - frame.translation().x();
+  const PlacedBalls::Numbers y = balls.centers.col(1) - frame.translation().y();
+  const PlacedBalls::Numbers z = balls.centers.col(2) - frame.translation().z();
+  PlacedBalls::Numbers squared = x.square() + y.square() + z.square();
+  if (step.type != JointType::Floating)  // a floating joint may turn about any axis through the origin
+  {
+    const Eigen::Vector3d axis = frame.linear() * robot_.joints()[static_cast<std::size_t>(step.joint)].axis;
+    squared = (y * axis.z() - z * axis.y()).square() + (z * axis.x() - x * axis.z()).square() +
+              (x * axis.y() - y * axis.x()).square();
+  }
+  const double arm = (squared.sqrt() + balls.radii).maxCoeff();
   return std::min(step.largest_arm, arm * (1.0 + kArmRounding) + kArmRounding + beyond);
 }
 
 void StateBox::sumSteps(const LeverChain& chain, double* sums) const
 {
-  double beyond = has_center_ && !chain.balls.empty() ? 0.0 : kUnboundedArm;
+  const bool has_balls = has_center_ && !chain.balls.empty();
+  const PlacedBalls balls = has_balls ? place(chain) : PlacedBalls();
+  double beyond = has_balls ? 0.0 : kUnboundedArm;
   sums[0] = 0.0;
   for (std::size_t i = 0; i < chain.steps.size(); ++i)
   {
@@ -58,7 +75,10 @@ void StateBox::sumSteps(const LeverChain& chain, double* sums) const
       const JointTravel& travel = travel_[step.joint];
       displacement = travel.length;
       if (travel.angle != 0.0)  // zero times an infinite arm is no number, and an arm that is not needed takes time
-        displacement += armOf(chain, step, beyond) * travel.angle;
+      {
+        const double arm = beyond < step.largest_arm ? armOf(balls, step, beyond) : step.largest_arm;
+        displacement += arm * travel.angle;
+      }
       beyond += displacement * reach_;
     }
     sums[i + 1] = sums[i] + displacement;

@@ -26,7 +26,16 @@ class StateBox
   void sumSteps(const LeverChain& chain, double* sums) const;
 
  private:
-  double armOf(const LeverChain& chain, const LeverChain::Step& step, double beyond) const;
+  struct PlacedBalls
+  {
+    using Numbers = Eigen::Array<double, kLeverBalls, 1>;
+
+    Eigen::Array<double, kLeverBalls, 3> centers;
+    Numbers radii;
+  };
+
+  PlacedBalls place(const LeverChain& chain) const;
+  double armOf(const PlacedBalls& balls, const LeverChain::Step& step, double beyond) const;
 
   const RobotModel& robot_;
   const JointTravel* travel_ = nullptr;

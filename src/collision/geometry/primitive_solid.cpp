@@ -144,6 +144,14 @@ class PlacedConvexSolid final : public Convex
   double radius_;
 };
 
+/// Whether a plane of the box's faces separates the triangle and the box, farther apart than `distance`.
+bool isBesideBox(const Triangle& triangle, const Vector3d& half, double distance)
+{
+  const Vector3d low = triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]);
+  const Vector3d high = triangle[0].cwiseMax(triangle[1]).cwiseMax(triangle[2]);
+  return (low.cwiseMax(-high) - half).maxCoeff() > distance;
+}
+
 /// Whether the distance between the point and the triangle is at most `distance`.
 bool triangleWithinPoint(const Triangle& triangle, const Vector3d& point, double distance)
 {
@@ -257,6 +265,11 @@ bool triangleWithinSolid(const Triangle& triangle, const Shape& solid, double re
   const double distance = required + kSlack;
   if (const Sphere* sphere = std::get_if<Sphere>(&solid))
     return triangleWithinPoint(triangle, Vector3d::Zero(), sphere->radius + distance);
+  if (isBesideBox(triangle, halfExtents(solid), distance))
+    return false;
+  if (std::any_of(triangle.begin(), triangle.end(),
+                  [&](const Vector3d& vertex) { return fromSolid(solid, vertex).norm() <= required; }))
+    return true;
   const Triangle sorted = sortedTriangle(triangle);
   const ConvexTriangle convex(sorted);
   const Vector3d to_center = fromSolid(solid, convex.center());

@@ -72,7 +72,7 @@ MotionBatch::MotionBatch(StateChecker& checker, const RobotModel& robot, const s
                          const MotionCheckerOptions& options, MotionQuery query, const std::function<bool()>& stop)
   : checker_(checker),
     robot_(robot),
-    limits_(provenRanges(robot)),
+    limits_(options.rule == MotionRule::Bound ? provenRanges(robot) : std::vector<VariableRange>()),
     group_(group),
     options_(options),
     last_valid_(query == MotionQuery::LastValid),
@@ -84,10 +84,13 @@ void MotionBatch::add(const double* from, const double* to)
 {
   const double segments = segmentCount(robot_, from, to, options_.steps);
   const bool is_too_long = segments >= static_cast<double>(options_.max_samples);
-  Motion motion{from, to, is_too_long ? 1 : static_cast<std::size_t>(segments), {}, {}};
+  const std::size_t number = is_too_long ? 1 : static_cast<std::size_t>(segments);
+  std::vector<std::size_t>& order = orders_[number];
+  if (order.empty())
+    order = bisectionOrder(number);
+  Motion motion{from, to, number, &order, {}};
   if (is_too_long)
     motion.reject();
-  motion.order = bisectionOrder(motion.segments);
   if (options_.rule == MotionRule::Bound)
   {
     motion.travel = jointTravel(robot_, from, to);
@@ -191,7 +194,7 @@ void MotionBatch::checkSamples()
   const bool all = options_.rule == MotionRule::Samples || last_valid_;
   std::size_t largest = 0;
   for (const Motion& motion : motions_)
-    largest = std::max(largest, motion.order.size());
+    largest = std::max(largest, motion.order->size());
   std::size_t end = last_valid_ ? largest : kFirstSamples;
   for (std::size_t begin = 0; begin < largest; begin = end, end *= kGrowth)
   {
@@ -199,9 +202,10 @@ void MotionBatch::checkSamples()
     for (std::size_t i = 0; i < motions_.size(); ++i)
     {
       const Motion& motion = motions_[i];
-      const std::size_t last = all ? motion.order.size() : kFirstSamples + motion.order.size() / kBeforeProof;
-      for (std::size_t k = begin; motion.valid && k < std::min({end, last, motion.order.size()}); ++k)
-        intervals.push_back({i, motion.fraction(motion.order[k]), 1.0 / static_cast<double>(motion.segments)});
+      const std::vector<std::size_t>& order = *motion.order;
+      const std::size_t last = all ? order.size() : kFirstSamples + order.size() / kBeforeProof;
+      for (std::size_t k = begin; motion.valid && k < std::min({end, last, order.size()}); ++k)
+        intervals.push_back({i, motion.fraction(order[k]), 1.0 / static_cast<double>(motion.segments)});
     }
     checkMiddles(intervals, false,
                  [this](const Interval& interval, bool free, const BodyPair& colliding)

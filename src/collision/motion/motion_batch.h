@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -55,11 +56,11 @@ class MotionBatch
   {
     const double* from;
     const double* to;
-    std::size_t segments;             // the samples are the fractions 0, 1 / segments, ... 1
-    std::vector<std::size_t> order;   // order of the samples, see bisectionOrder
-    std::vector<JointTravel> travel;  // travel of each joint over the whole motion (rule Bound)
-    double longest_travel = 0.0;      // largest length or angle in `travel`
-    double angle_rounding = 0.0;      // radians: largest rounding of an interpolated angle
+    std::size_t segments;                   // the samples are the fractions 0, 1 / segments, ... 1
+    const std::vector<std::size_t>* order;  // order of the samples, see bisectionOrder
+    std::vector<JointTravel> travel;        // travel of each joint over the whole motion (rule Bound)
+    double longest_travel = 0.0;            // largest length or angle in `travel`
+    double angle_rounding = 0.0;            // radians: largest rounding of an interpolated angle
     std::size_t segments_examined = 0;
     double limit = 1.0;  // the motion is no longer checked beyond this fraction
     double first_invalid = 1.0;
@@ -110,13 +111,14 @@ class MotionBatch
 
   StateChecker& checker_;
   const RobotModel& robot_;
-  const std::vector<VariableRange> limits_;
+  const std::vector<VariableRange> limits_;  // for the rule Bound
   const std::string& group_;
   const MotionCheckerOptions& options_;
   const bool last_valid_;
   const std::function<bool()>& stop_;
 
   bool stopped_ = false;
+  std::unordered_map<std::size_t, std::vector<std::size_t>> orders_;  // by the number of segments
   std::vector<Motion> motions_;
   std::size_t states_checked_ = 0;
 };

@@ -57,6 +57,7 @@ void validateStates(const RobotModel& robot, const double* states, std::size_t c
 {
   const auto& variables = robot.variables();
   std::vector<double> largest;
+  largest.reserve(variables.size());
   for (const Variable& variable : variables)
     largest.push_back(variable.largest);
   const auto is_allowed = [&](std::size_t row)
