@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
 // Each robot instance has a step for each joint between its link and the root.
@@ -29,6 +30,8 @@ LeverChain chainOf(const RobotModel& robot, const Reach& reach, const Shape& sha
   LeverChain chain;
   if (!body.region_by_level.empty())
     chain.balls = clustered(body.region_by_level.front().balls, kLeverBalls);
+  if (chain.balls.size() > kLeverBalls)
+    throw std::logic_error("an instance has more balls than kLeverBalls");
   int link = instance.link;
   for (std::size_t above = 0; link >= 0; ++above)
   {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -14,8 +15,8 @@ namespace gpu_planning_scene::core
 {
 constexpr double kUnboundedArm = std::numeric_limits<double>::infinity();
 
-/// More balls give tighter bounds, but a motion takes longer.
-constexpr int kLeverBalls = 8;
+/// The most balls around an instance. More balls give tighter bounds, but a motion takes longer.
+constexpr std::size_t kLeverBalls = 8;
 
 /// How far the joints between the root and an instance can move the instance's points.
 struct LeverChain

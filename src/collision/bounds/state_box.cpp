@@ -1,6 +1,7 @@
 #include "collision/bounds/state_box.h"
 
 #include <algorithm>
+#include <optional>
 
 // A body's distance from a joint's axis depends only on the joints between the two. In the centre of the box it is
 // computed. Elsewhere in the box it is larger by at most the length by which these joints move the body on the way from
@@ -25,18 +26,17 @@ void StateBox::set(const double* center, const JointTravel* travel, double sprea
     robot_.linkPoses(center, poses_.data());
 }
 
-/// The chain's balls in the centre of the box, in the planning frame. A chain with fewer balls has its first one
-/// several times.
+/// The balls of a chain with at least one ball in the centre of the box, in the planning frame. The places of missing
+/// balls have the first ball again.
 StateBox::PlacedBalls StateBox::place(const LeverChain& chain) const
 {
   const Eigen::Isometry3d& body = poses_[static_cast<std::size_t>(chain.steps.front().link)];
   PlacedBalls balls;
-  for (int i = 0; i < kLeverBalls; ++i)
+  for (std::size_t i = 0; i < kLeverBalls; ++i)
   {
-    const auto number = static_cast<std::size_t>(i);
-    const Ball& ball = chain.balls[number < chain.balls.size() ? number : 0];
-    balls.centers.row(i) = (body * ball.center).transpose();
-    balls.radii[i] = ball.radius;
+    const Ball& ball = chain.balls[i < chain.balls.size() ? i : 0];
+    balls.centers.row(static_cast<Eigen::Index>(i)) = (body * ball.center).transpose();
+    balls.radii[static_cast<Eigen::Index>(i)] = ball.radius;
   }
   return balls;
 }
@@ -62,9 +62,8 @@ double StateBox::armOf(const PlacedBalls& balls, const LeverChain::Step& step, d
 
 void StateBox::sumSteps(const LeverChain& chain, double* sums) const
 {
-  const bool has_balls = has_center_ && !chain.balls.empty();
-  const PlacedBalls balls = has_balls ? place(chain) : PlacedBalls();
-  double beyond = has_balls ? 0.0 : kUnboundedArm;
+  std::optional<PlacedBalls> balls;  // placed for the first arm that is needed
+  double beyond = has_center_ && !chain.balls.empty() ? 0.0 : kUnboundedArm;
   sums[0] = 0.0;
   for (std::size_t i = 0; i < chain.steps.size(); ++i)
   {
@@ -76,8 +75,10 @@ void StateBox::sumSteps(const LeverChain& chain, double* sums) const
       displacement = travel.length;
       if (travel.angle != 0.0)  // zero times an infinite arm is no number, and an arm that is not needed takes time
       {
-        const double arm = beyond < step.largest_arm ? armOf(balls, step, beyond) : step.largest_arm;
-        displacement += arm * travel.angle;
+        const bool may_be_shorter = beyond < step.largest_arm;
+        if (may_be_shorter && !balls)
+          balls = place(chain);
+        displacement += (may_be_shorter ? armOf(*balls, step, beyond) : step.largest_arm) * travel.angle;
       }
       beyond += displacement * reach_;
     }

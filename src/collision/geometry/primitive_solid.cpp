@@ -10,7 +10,8 @@
 #include "collision/geometry/precise_distance.h"
 
 // Spheres are decided by the distance of a point from a shape (Ericson, "Real-Time Collision Detection", 2005, 5.1).
-// The other primitives have support functions and are decided by convexWithin (Gilbert, Johnson and Keerthi 1988).
+// The other primitives have support functions and are decided by convexWithin (Gilbert, Johnson and Keerthi 1988). Most
+// triangles do not need it: they are beside the solid, or have a vertex in it.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -144,7 +145,8 @@ class PlacedConvexSolid final : public Convex
   double radius_;
 };
 
-/// Whether a plane of the box's faces separates the triangle and the box, farther apart than `distance`.
+/// Whether the whole triangle is more than `distance` beyond one face of the box along the axes with these half lengths
+/// around the origin.
 bool isBesideBox(const Triangle& triangle, const Vector3d& half, double distance)
 {
   const Vector3d low = triangle[0].cwiseMin(triangle[1]).cwiseMin(triangle[2]);
@@ -265,6 +267,7 @@ bool triangleWithinSolid(const Triangle& triangle, const Shape& solid, double re
   const double distance = required + kSlack;
   if (const Sphere* sphere = std::get_if<Sphere>(&solid))
     return triangleWithinPoint(triangle, Vector3d::Zero(), sphere->radius + distance);
+  // Rounding is monotone, so a gap of at most `required` never counts as larger than `distance`.
   if (isBesideBox(triangle, halfExtents(solid), distance))
     return false;
   if (std::any_of(triangle.begin(), triangle.end(),

@@ -57,7 +57,7 @@ class MotionBatch
     const double* from;
     const double* to;
     std::size_t segments;                   // the samples are the fractions 0, 1 / segments, ... 1
-    const std::vector<std::size_t>* order;  // order of the samples, see bisectionOrder
+    const std::vector<std::size_t>* order;  // order of the samples, one of orders_
     std::vector<JointTravel> travel;        // travel of each joint over the whole motion (rule Bound)
     double longest_travel = 0.0;            // largest length or angle in `travel`
     double angle_rounding = 0.0;            // radians: largest rounding of an interpolated angle
@@ -111,14 +111,14 @@ class MotionBatch
 
   StateChecker& checker_;
   const RobotModel& robot_;
-  const std::vector<VariableRange> limits_;  // for the rule Bound
+  const std::vector<VariableRange> limits_;  // empty unless the rule is Bound
   const std::string& group_;
   const MotionCheckerOptions& options_;
   const bool last_valid_;
   const std::function<bool()>& stop_;
 
   bool stopped_ = false;
-  std::unordered_map<std::size_t, std::vector<std::size_t>> orders_;  // by the number of segments
+  std::unordered_map<std::size_t, std::vector<std::size_t>> orders_;  // see bisectionOrder; by the number of segments
   std::vector<Motion> motions_;
   std::size_t states_checked_ = 0;
 };
