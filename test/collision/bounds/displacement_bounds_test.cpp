@@ -1,6 +1,7 @@
 // A state is not free in its neighbourhood if the arm can reach an obstacle there. It is free if the arm cannot.
 
 #include <cmath>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -116,6 +117,38 @@ TEST_F(Displacement, OfABentArmIsSmallerIfTheElbowIsKnownToStayBent)
   around.spread = 1e6;
   EXPECT_FALSE(isFree(near));
 }
+
+/// A shape on one link that turns about z. Its point that is farthest from the axis moves most.
+class TurningShape : public testing::TestWithParam<std::tuple<const char*, double, double>>
+{
+};
+
+TEST_P(TurningShape, MovesAsFarAsItsFarthestPoint)
+{
+  const auto& [geometry, place, farthest] = GetParam();
+  const auto robot = robotOf("<link name='base'/><link name='turning'><collision><origin xyz='" +
+                             std::to_string(place) + " 0 0'/><geometry>" + geometry + "</geometry></collision></link>" +
+                             jointXml("turn", "revolute", "base", "turning", kTurns));
+  const std::vector<double> state = robot->defaultState();
+  const JointNeighbourhood around{{{0.0, kTravel}}, {0}, state};
+  const auto is_free = [&](double gap)
+  {
+    auto scene = std::make_shared<PlanningScene>(robot);
+    WorldObject wall;  // `gap` beside the shape, which is 0.6 m wide
+    wall.id = "wall";
+    wall.pose = Eigen::Translation3d(place, 0.3 + gap + 0.5, 0.0);
+    wall.shapes = {{Box{{9.0, 1.0, 9.0}}}};
+    scene->objects = {wall};
+    return CpuChecker(scene).check(state.data(), 1, "", &around).valid[0] != 0;
+  };
+  EXPECT_FALSE(is_free(0.999 * kTravel * farthest));
+  EXPECT_TRUE(is_free(1.5 * kTravel * farthest)) << "the balls around a shape reach beyond it";
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, TurningShape,
+                         testing::Values(std::tuple("<sphere radius='0.3'/>", 0.5, 0.8),
+                                         std::tuple("<box size='1.2 0.6 0.02'/>", 0.3, std::hypot(0.9, 0.3)),
+                                         std::tuple("<box size='1.2 0.6 0.02'/>", -0.3, std::hypot(0.9, 0.3))));
 
 TEST_F(Displacement, CountsTheTravelOfFollowers)
 {
