@@ -103,19 +103,19 @@ TEST_F(Displacement, OfABentArmIsSmallerIfTheElbowIsKnownToStayBent)
   around.rows = {0};
   around.travel.resize(robot->joints().size());
   around.travel[0].angle = kTravel;
-  const auto isFree = [&](double gap)
+  const auto is_free = [&](double gap)
   { return CpuChecker(sceneWith(robot, tip, gap)).check(state.data(), 1, "", &around).valid[0] != 0; };
   const double near = kTravel * (tip.norm() + 3.0 * kBall);
   ASSERT_LT(near, kTravel);
-  EXPECT_FALSE(isFree(near)) << "no centre, so the elbow may be anywhere";
+  EXPECT_FALSE(is_free(near)) << "no centre, so the elbow may be anywhere";
   around.centers = state;
-  EXPECT_TRUE(isFree(near));
-  EXPECT_FALSE(isFree(0.98 * kTravel * tip.norm()));
+  EXPECT_TRUE(is_free(near));
+  EXPECT_FALSE(is_free(0.98 * kTravel * tip.norm()));
   // The elbow may be as far from the centre as its travel times the spread, so the arm may be stretched.
   around.travel[1].angle = 1e-6;
-  EXPECT_TRUE(isFree(near));
+  EXPECT_TRUE(is_free(near));
   around.spread = 1e6;
-  EXPECT_FALSE(isFree(near));
+  EXPECT_FALSE(is_free(near));
 }
 
 /// A shape on one link that turns about z. Its point that is farthest from the axis moves most.
@@ -125,7 +125,9 @@ class TurningShape : public testing::TestWithParam<std::tuple<const char*, doubl
 
 TEST_P(TurningShape, MovesAsFarAsItsFarthestPoint)
 {
-  const auto& [geometry, place, farthest] = GetParam();
+  const std::string geometry = std::get<0>(GetParam());
+  const double place = std::get<1>(GetParam());
+  const double farthest = std::get<2>(GetParam());
   const auto robot = robotOf("<link name='base'/><link name='turning'><collision><origin xyz='" +
                              std::to_string(place) + " 0 0'/><geometry>" + geometry + "</geometry></collision></link>" +
                              jointXml("turn", "revolute", "base", "turning", kTurns));
