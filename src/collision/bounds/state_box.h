@@ -26,6 +26,7 @@ class StateBox
   void sumSteps(const LeverChain& chain, double* sums) const;
 
  private:
+  /// One row for each ball, in metres and in the planning frame.
   struct PlacedBalls
   {
     using Numbers = Eigen::Array<double, kLeverBalls, 1>;

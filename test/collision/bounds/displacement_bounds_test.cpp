@@ -144,7 +144,7 @@ TEST_P(TurningShape, MovesAsFarAsItsFarthestPoint)
     return CpuChecker(scene).check(state.data(), 1, "", &around).valid[0] != 0;
   };
   EXPECT_FALSE(is_free(0.999 * kTravel * farthest));
-  EXPECT_TRUE(is_free(1.5 * kTravel * farthest)) << "the balls around a shape reach beyond it";
+  EXPECT_TRUE(is_free(1.5 * kTravel * farthest));  // the balls around the shape are larger than the shape
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, TurningShape,
