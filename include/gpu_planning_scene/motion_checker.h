@@ -68,7 +68,8 @@ enum class MotionQuery
 {
   Valid,      ///< is the motion valid? The check ends at the first collision found
   LastValid,  ///< up to which fraction is the motion valid?
-  Samples     ///< as Valid, but checks the samples only, whatever the rule is
+  Samples,    ///< as Valid, but checks the samples only, whatever the rule is
+  Extension   ///< as Samples, for a start that is known to be free: it is not checked, and the end is checked first
 };
 
 /// Checks straight motions in bulk. The samples of all motions are checked batch by batch: first the ends and middles,

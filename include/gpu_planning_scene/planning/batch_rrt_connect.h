@@ -26,7 +26,7 @@ class RrtSearches;
 /// After the first round, known paths are tried, if there are any (setKnownPaths): the free motions of the two that
 /// begin and end nearest to the problem's states become branches.
 /// If the trees meet in several places at once, the shortest path is the solution.
-/// The trees grow by motions that MotionValidator::validateCoarsely accepts. When a path is found, its motions are
+/// The trees grow by motions that MotionValidator::validateExtensions accepts. When a path is found, its motions are
 /// validated by the validator's rule. A motion that fails is removed from its tree, with everything that grew from it.
 /// If the checks of the validator run side by side (StateChecker::checksSideBySide), a hard problem gets several
 /// searches with different random states by default, each on a thread of its own. The first solution ends them all.

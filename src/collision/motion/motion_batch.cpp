@@ -20,9 +20,10 @@ constexpr std::size_t kStatesInMemory = 65'536;
 // With margins, a state may need as many numbers as the robot has pairs of links.
 constexpr std::size_t kStatesWithMarginsInMemory = 8192;
 
-// The first round checks the ends and the middle of a motion. Each later round multiplies the number of checked samples
-// by kGrowth.
+// The first round checks the ends and the middle of a motion; of an extension, the end, where most extensions of a tree
+// in a narrow place collide. Each later round multiplies the number of checked samples by kGrowth.
 constexpr std::size_t kFirstSamples = 3;
+constexpr std::size_t kFirstSamplesOfExtensions = 1;
 constexpr std::size_t kGrowth = 4;
 
 // The smallest neighbourhood of a sample. If even this neighbourhood is not proven free, the motion is rejected at the
@@ -49,10 +50,13 @@ double angleRounding(const RobotModel& robot, const double* from, const double* 
   return 4.0 * std::numeric_limits<double>::epsilon() * largest;
 }
 
-/// The numbers n and 0, then the middles of the segments in between, level by level.
-std::vector<std::size_t> bisectionOrder(std::size_t n)
+/// The numbers n and, unless the start is known to be free, 0; then the middles of the segments in between, level by
+/// level.
+std::vector<std::size_t> bisectionOrder(std::size_t n, bool is_start_free)
 {
-  std::vector<std::size_t> order = {n, 0};
+  std::vector<std::size_t> order = {n};
+  if (!is_start_free)
+    order.push_back(0);
   std::vector<std::pair<std::size_t, std::size_t>> segments = {{0, n}};
   for (std::size_t i = 0; i < segments.size(); ++i)
   {
@@ -76,6 +80,7 @@ MotionBatch::MotionBatch(StateChecker& checker, const RobotModel& robot, const s
     group_(group),
     options_(options),
     last_valid_(query == MotionQuery::LastValid),
+    are_extensions_(query == MotionQuery::Extension),
     stop_(stop)
 {
 }
@@ -87,7 +92,7 @@ void MotionBatch::add(const double* from, const double* to)
   const std::size_t number = is_too_long ? 1 : static_cast<std::size_t>(segments);
   std::vector<std::size_t>& order = orders_[number];
   if (order.empty())
-    order = bisectionOrder(number);
+    order = bisectionOrder(number, are_extensions_);
   Motion motion{from, to, number, &order, {}};
   if (is_too_long)
     motion.reject();
@@ -195,7 +200,7 @@ void MotionBatch::checkSamples()
   std::size_t largest = 0;
   for (const Motion& motion : motions_)
     largest = std::max(largest, motion.order->size());
-  std::size_t end = last_valid_ ? largest : kFirstSamples;
+  std::size_t end = last_valid_ ? largest : are_extensions_ ? kFirstSamplesOfExtensions : kFirstSamples;
   for (std::size_t begin = 0; begin < largest; begin = end, end *= kGrowth)
   {
     std::vector<Interval> intervals;

@@ -115,6 +115,7 @@ class MotionBatch
   const std::string& group_;
   const MotionCheckerOptions& options_;
   const bool last_valid_;
+  const bool are_extensions_;
   const std::function<bool()>& stop_;
 
   bool stopped_ = false;

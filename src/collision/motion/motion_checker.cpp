@@ -33,7 +33,7 @@ std::vector<MotionVerdict> MotionChecker::check(const double* starts, const doub
   validateStates(*robot_, ends, count);
   requireMotionsOfGroup(*robot_, group_, starts, ends, count, "motion");
   MotionCheckerOptions options = options_;
-  if (query == MotionQuery::Samples)
+  if (query == MotionQuery::Samples || query == MotionQuery::Extension)
     options.rule = MotionRule::Samples;
   const std::size_t width = robot_->variables().size();
   MotionBatch batch(*checker_, *robot_, group_, options, query, stop);

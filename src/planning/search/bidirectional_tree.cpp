@@ -21,9 +21,10 @@ constexpr std::size_t kMaxPieces = 64;
 constexpr std::size_t kRoundsOfBothTrees = 8;
 
 // Vertices of the smaller tree per random branch of a round. The branches of a round grow independently of each other,
-// so in a small tree many of them would grow into the same region.
+// so in a small tree many of them would grow into the same region. Yet eight states take hardly more time than one,
+// and most branches of a tree in a narrow place collide at their ends.
 constexpr std::size_t kVerticesPerBranch = 8;
-constexpr std::size_t kLeastBranches = 2;
+constexpr std::size_t kLeastBranches = 8;
 
 // In a large tree, the search for the nearest vertex takes time, so the clock is read after this many branches.
 constexpr std::size_t kBranchesBetweenStops = 16;
@@ -224,19 +225,17 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
     attempts.push_back(randomBranch(validator, side, limits));
   }
 
-  // The motions get the direction that they will have in the path.
   std::vector<MotionValidator::Motion> motions;
   for (const Attempt& attempt : attempts)
   {
     const ompl::base::State* last = attempt.connection.from->state;
     for (const ompl::base::State* state : attempt.states)
     {
-      motions.emplace_back(attempt.connection.side == Start ? last : state,
-                           attempt.connection.side == Start ? state : last);
+      motions.emplace_back(last, state);
       last = state;
     }
   }
-  const std::vector<std::uint8_t> valid = validator.validateCoarsely(motions, ptc);
+  const std::vector<std::uint8_t> valid = validator.validateExtensions(motions, ptc);
   if (ptc)  // motions without a verdict are reported as invalid
     return {};
   connections_.clear();

@@ -146,6 +146,12 @@ std::vector<std::uint8_t> MotionValidator::validateCoarsely(const std::vector<Mo
   return validOf(check(coarse_motions_, motions, MotionQuery::Valid, ptc));
 }
 
+std::vector<std::uint8_t> MotionValidator::validateExtensions(const std::vector<Motion>& motions,
+                                                              const Termination& ptc) const
+{
+  return validOf(check(coarse_motions_, motions, MotionQuery::Extension, ptc));
+}
+
 bool MotionValidator::validatePath(const ompl::geometric::PathGeometric& path, const Termination& ptc) const
 {
   std::vector<Motion> motions;
