@@ -58,8 +58,8 @@ class MotionValidator : public ompl::base::MotionValidator
   /// the motions of a solution by the rule.
   std::vector<std::uint8_t> validateCoarsely(const std::vector<Motion>& motions,
                                              const Termination& ptc = never()) const;
-  /// The same for motions that extend a tree. Their starts are not checked, except for the bounds of the space: each is
-  /// a vertex of the tree, or the end of the motion before it.
+  /// The same for motions that extend a tree. Their starts are not checked: each is a vertex of the tree, or the end of
+  /// the motion before it.
   std::vector<std::uint8_t> validateExtensions(const std::vector<Motion>& motions,
                                                const Termination& ptc = never()) const;
   static constexpr double kCoarser = 4.0;

@@ -76,6 +76,8 @@ Eigen::Quaterniond rotationOf(const double* variables)
 /// angle of a rotation.
 double travelOf(ValueKind kind, const double* from, const double* to, int count)
 {
+  if (std::equal(from, from + count, to))
+    return 0.0;
   switch (kind)
   {
     case ValueKind::WrappedAngle:

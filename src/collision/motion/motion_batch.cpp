@@ -54,10 +54,14 @@ double angleRounding(const RobotModel& robot, const double* from, const double* 
 /// level.
 std::vector<std::size_t> bisectionOrder(std::size_t n, bool is_start_free)
 {
-  std::vector<std::size_t> order = {n};
+  std::vector<std::size_t> order;
+  order.reserve(n + 1);
+  order.push_back(n);
   if (!is_start_free)
     order.push_back(0);
-  std::vector<std::pair<std::size_t, std::size_t>> segments = {{0, n}};
+  std::vector<std::pair<std::size_t, std::size_t>> segments;
+  segments.reserve(2 * n);
+  segments.emplace_back(0, n);
   for (std::size_t i = 0; i < segments.size(); ++i)
   {
     const auto [begin, end] = segments[i];

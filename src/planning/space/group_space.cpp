@@ -37,9 +37,10 @@ std::vector<double> referenceState(const PlanningScene& scene)
 
 bool isWithin(const GroupStateSpace& space, const ompl::base::State* state)
 {
-  std::vector<double> values;
-  space.copyToReals(values, state);
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }) &&
+  const std::vector<ompl::base::StateSpace::ValueLocation>& values = space.getValueLocations();
+  return std::all_of(values.begin(), values.end(),
+                     [&](const auto& value)
+                     { return std::isfinite(*space.getValueAddressAtLocation(state, value)); }) &&
          space.satisfiesBounds(state);
 }
 
