@@ -421,6 +421,35 @@ TEST_F(PointMotions, ThatCollideHaveTheirPairAlsoIfTheChecksThenEnd)
   EXPECT_NE(verdict.colliding, kNoPair);
 }
 
+/// Steps of 0.25 make the samples 0, 0.25, 0.5, 0.75 and 1. A thin wall at each is found, except at the start.
+TEST_F(PointMotions, ThatExtendATreeAreCheckedAtAllSamplesButTheStart)
+{
+  const std::vector<double> start = {0.0, 0.0};
+  const std::vector<double> end = {1.0, 0.0};
+  for (const MotionRule rule : {MotionRule::Samples, MotionRule::Bound})
+    for (const double at : {0.0, 0.25, 0.5, 0.75, 1.0})
+    {
+      scene_->objects = {wall(at, 0.001, 0.0, 1.0)};
+      const MotionVerdict found =
+          checker(rule, 0.25).check(start.data(), end.data(), 1, MotionQuery::Extension).front();
+      EXPECT_EQ(found.valid, at == 0.0) << at;
+      EXPECT_EQ(found.colliding == kNoPair, found.valid) << at;
+      EXPECT_EQ(found.first_invalid, found.valid ? 1.0 : at);
+    }
+}
+
+TEST_F(PointMotions, ThatExtendATreeAreCheckedAtTheEndFirst)
+{
+  scene_->objects = {wall(1.0, 0.001, 0.0, 1.0), wall(0.5, 0.001, 0.0, 1.0)};
+  const std::vector<double> starts = {0.0, 0.0, 0.0, 0.0};
+  const std::vector<double> ends = {1.0, 0.0, 0.3, 0.0};
+  const MotionChecker extensions = checker(MotionRule::Samples, 0.1);
+  const std::vector<MotionVerdict> found = extensions.check(starts.data(), ends.data(), 2, MotionQuery::Extension);
+  EXPECT_FALSE(found[0].valid);
+  EXPECT_TRUE(found[1].valid);
+  EXPECT_EQ(extensions.statesChecked(), 4U) << "1, and 0.3, 0.1 and 0.2";
+}
+
 TEST_F(PointMotions, AreRefusedWhereStepsCutThemIntoTooManySamples)
 {
   for (const MotionRule rule : {MotionRule::Samples, MotionRule::Bound})

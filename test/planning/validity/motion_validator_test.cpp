@@ -93,6 +93,18 @@ TEST_F(MotionValidatorTest, ChecksAMotionAgainUnlessItRemembersValidOnes)
   states_for({nan, 0.0}, {-1.0, 1.0}, 0);
 }
 
+/// The wall covers x from -0.5 to -0.3, with the robot from -0.55 to -0.25.
+TEST_F(MotionValidatorTest, ChecksExtensionsOfTreesWithoutTheirStarts)
+{
+  const auto vertex = robot.at({-0.28, 0.0});  // as if it were free
+  const auto valid = [&](const Position& to) {
+    return robot.validator().validateExtensions({{vertex.get(), robot.at(to).get()}}).front() != 0;
+  };
+  EXPECT_TRUE(valid({-0.22, 0.0})) << "its only other sample is the end";
+  EXPECT_FALSE(valid({-0.26, 0.0})) << "the end collides";
+  EXPECT_FALSE(valid({-3.0, 0.0})) << "the end is out of bounds";
+}
+
 TEST_F(MotionValidatorTest, ChecksCoarselyAtFourTimesTheSteps)
 {
   MotionCheckerOptions options;
