@@ -52,9 +52,9 @@ struct MotionVerdict
   /// MotionRule::Samples. 1 if the motion is valid. Only MotionQuery::LastValid computes this fraction: with the other
   /// queries, it is 0 for every invalid motion.
   double last_valid = 0.0;
-  /// The fraction of the first sample that collides or around which the motion is not proven free. Under
-  /// MotionQuery::Valid: the first such sample that the check found, which need not be the first of the motion. 1 if
-  /// the motion is valid.
+  /// The fraction of the first sample that collides or around which the motion is not proven free. Unless the query is
+  /// MotionQuery::LastValid: the first such sample that the check found, which need not be the first of the motion. 1
+  /// if the motion is valid.
   double first_invalid = 0.0;
   /// The colliding pair at `first_invalid`. kNoPair if the check found no sample that collides: the motion is valid, it
   /// is not proven free, it is invalid as a whole, or its check ended early.
@@ -72,10 +72,10 @@ enum class MotionQuery
   Extension   ///< as Samples, for a start that is known to be free: it is not checked, and the end is checked first
 };
 
-/// Checks straight motions in bulk. The samples of all motions are checked batch by batch: first the ends and middles,
-/// then the remaining samples of the motions that are still valid; under MotionRule::Bound only some of them, except
-/// for MotionQuery::LastValid. MotionRule::Bound then checks every second sample with margins. It subdivides a motion
-/// where a sample does not have its margin. Thread-safe.
+/// Checks straight motions in bulk. The samples of all motions are checked batch by batch: first the ends and middles
+/// (of extensions the ends alone), then the remaining samples of the motions that are still valid; under
+/// MotionRule::Bound only some of them, except for MotionQuery::LastValid. MotionRule::Bound then checks every second
+/// sample with margins. It subdivides a motion where a sample does not have its margin. Thread-safe.
 ///
 /// F. Schwarzer, M. Saha, J.-C. Latombe: Exact collision checking of robot paths (2002). Here, each level of
 /// subdivision is one batch.

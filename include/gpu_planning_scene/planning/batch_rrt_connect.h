@@ -50,7 +50,8 @@ class BatchRrtConnect : public ompl::base::Planner, public TriesKnownPaths
   void setRange(double range);
   double getRange() const { return range_; }
 
-  /// The largest number of random branches in a round, at least 1. While the trees are small, a round has fewer.
+  /// The largest number of random branches in a round, at least 1. While the trees are small, a round has fewer, but at
+  /// least 8 of them.
   void setBranches(unsigned int branches);
   unsigned int getBranches() const { return branches_; }
 
@@ -79,7 +80,8 @@ class BatchRrtConnect : public ompl::base::Planner, public TriesKnownPaths
   /// Throws ompl::Exception if the space information has no gpu_planning_scene::core::MotionValidator.
   void setup() override;
   void clear() override;
-  /// Grows the trees until there is a solution or `ptc` returns true; a second call continues with the same trees.
+  /// Grows the trees until there is a solution or `ptc` returns true; a second call continues with the same trees, in
+  /// the same scene.
   /// `ptc` is tested between batches of states. If the planner has found a solution when `ptc` returns true, but has
   /// not proven it, it takes more time for the proof: a tenth of the time so far, but at least 0.1 s and at most 1 s.
   /// If no solution is proven, the planner takes the same time again to prove the path to the vertex closest to the

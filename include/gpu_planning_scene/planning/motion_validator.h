@@ -21,9 +21,9 @@
 namespace gpu_planning_scene::core
 {
 /// Validates straight motions between states of a GroupStateSpace. A motion is valid if its states are within the
-/// bounds of the space and the MotionChecker finds it valid. The start is checked too. A state with a value that is not
-/// finite is outside of the bounds. The robot's other variables have the values described at StateValidityChecker.
-/// Thread-safe.
+/// bounds of the space and the MotionChecker finds it valid. The start is checked too, except by validateExtensions. A
+/// state with a value that is not finite is outside of the bounds. The robot's other variables have the values
+/// described at StateValidityChecker. Thread-safe.
 class MotionValidator : public ompl::base::MotionValidator
 {
  public:
@@ -58,8 +58,9 @@ class MotionValidator : public ompl::base::MotionValidator
   /// the motions of a solution by the rule.
   std::vector<std::uint8_t> validateCoarsely(const std::vector<Motion>& motions,
                                              const Termination& ptc = never()) const;
-  /// The same for motions that extend a tree. Their starts are not checked: each is a vertex of the tree, or the end of
-  /// the motion before it.
+  /// As validateCoarsely, for motions that extend a tree. The start of each must be a vertex of the tree, which is
+  /// known to be free, or the end of the motion before it. It is not checked, so a 1 counts only if the motions before
+  /// it, up to the tree, have 1 too. The ends are checked first.
   std::vector<std::uint8_t> validateExtensions(const std::vector<Motion>& motions,
                                                const Termination& ptc = never()) const;
   static constexpr double kCoarser = 4.0;

@@ -76,6 +76,7 @@ Eigen::Quaterniond rotationOf(const double* variables)
 /// angle of a rotation.
 double travelOf(ValueKind kind, const double* from, const double* to, int count)
 {
+  // Most motions leave some joints at rest, and remainders and rotations take time.
   if (std::equal(from, from + count, to))
     return 0.0;
   switch (kind)

@@ -20,8 +20,8 @@ constexpr std::size_t kStatesInMemory = 65'536;
 // With margins, a state may need as many numbers as the robot has pairs of links.
 constexpr std::size_t kStatesWithMarginsInMemory = 8192;
 
-// The first round checks the ends and the middle of a motion; of an extension, the end, where most extensions of a tree
-// in a narrow place collide. Each later round multiplies the number of checked samples by kGrowth.
+// The first round checks the ends and the middle of a motion, but only the end of an extension: most extensions in a
+// narrow place collide there. Each later round multiplies the number of checked samples by kGrowth.
 constexpr std::size_t kFirstSamples = 3;
 constexpr std::size_t kFirstSamplesOfExtensions = 1;
 constexpr std::size_t kGrowth = 4;
@@ -50,8 +50,8 @@ double angleRounding(const RobotModel& robot, const double* from, const double* 
   return 4.0 * std::numeric_limits<double>::epsilon() * largest;
 }
 
-/// The numbers n and, unless the start is known to be free, 0; then the middles of the segments in between, level by
-/// level.
+/// The samples of n segments in the order of their checks: n, then 0 (left out if the start is known to be free), then
+/// the middles of the segments in between, level by level.
 std::vector<std::size_t> bisectionOrder(std::size_t n, bool is_start_free)
 {
   std::vector<std::size_t> order;
@@ -204,7 +204,8 @@ void MotionBatch::checkSamples()
   std::size_t largest = 0;
   for (const Motion& motion : motions_)
     largest = std::max(largest, motion.order->size());
-  std::size_t end = last_valid_ ? largest : are_extensions_ ? kFirstSamplesOfExtensions : kFirstSamples;
+  const std::size_t few = are_extensions_ ? kFirstSamplesOfExtensions : kFirstSamples;
+  std::size_t end = last_valid_ ? largest : few;
   for (std::size_t begin = 0; begin < largest; begin = end, end *= kGrowth)
   {
     std::vector<Interval> intervals;

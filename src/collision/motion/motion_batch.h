@@ -21,14 +21,15 @@ namespace gpu_planning_scene::core
 class MotionBatch
 {
  public:
+  /// `options.rule` must be Samples for the queries Samples and Extension.
   MotionBatch(StateChecker& checker, const RobotModel& robot, const std::string& group,
               const MotionCheckerOptions& options, MotionQuery query, const std::function<bool()>& stop);
 
   /// Adds a motion. `from` and `to` are rows of all variables; they must outlive this object.
   void add(const double* from, const double* to);
 
-  /// Checks the samples. It begins with a few samples of each motion, because most colliding motions collide at one of
-  /// them.
+  /// Checks the samples. It begins with one or a few samples of each motion, because most colliding motions collide at
+  /// one of them.
   void checkSamples();
   /// Proves that the motions that are still valid are free, at the samples that checkSamples() left out too.
   void prove();
@@ -56,7 +57,7 @@ class MotionBatch
   {
     const double* from;
     const double* to;
-    std::size_t segments;                   // the samples are the fractions 0, 1 / segments, ... 1
+    std::size_t segments;                   // the samples are the fractions 0, 1 / segments, ... 1; see MotionQuery
     const std::vector<std::size_t>* order;  // order of the samples, one of orders_
     std::vector<JointTravel> travel;        // travel of each joint over the whole motion (rule Bound)
     double longest_travel = 0.0;            // largest length or angle in `travel`

@@ -21,9 +21,10 @@ constexpr std::size_t kMaxPieces = 64;
 constexpr std::size_t kRoundsOfBothTrees = 8;
 
 // Vertices of the smaller tree per random branch of a round. The branches of a round grow independently of each other,
-// so in a small tree many of them would grow into the same region. Yet eight states take hardly more time than one,
-// and most branches of a tree in a narrow place collide at their ends.
+// so in a small tree many of them would grow into the same region.
 constexpr std::size_t kVerticesPerBranch = 8;
+
+// Eight states take hardly more time than one, and in a narrow place most branches collide at their ends.
 constexpr std::size_t kLeastBranches = 8;
 
 // In a large tree, the search for the nearest vertex takes time, so the clock is read after this many branches.
@@ -225,6 +226,7 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
     attempts.push_back(randomBranch(validator, side, limits));
   }
 
+  // Each begins at a vertex of a tree or at the end of the motion before it, as validateExtensions requires.
   std::vector<MotionValidator::Motion> motions;
   for (const Attempt& attempt : attempts)
   {

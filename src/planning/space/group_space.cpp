@@ -37,10 +37,10 @@ std::vector<double> referenceState(const PlanningScene& scene)
 
 bool isWithin(const GroupStateSpace& space, const ompl::base::State* state)
 {
-  const std::vector<ompl::base::StateSpace::ValueLocation>& values = space.getValueLocations();
-  return std::all_of(values.begin(), values.end(),
-                     [&](const auto& value)
-                     { return std::isfinite(*space.getValueAddressAtLocation(state, value)); }) &&
+  const std::vector<ompl::base::StateSpace::ValueLocation>& locations = space.getValueLocations();
+  return std::all_of(locations.begin(), locations.end(),
+                     [&](const auto& location)
+                     { return std::isfinite(*space.getValueAddressAtLocation(state, location)); }) &&
          space.satisfiesBounds(state);
 }
 

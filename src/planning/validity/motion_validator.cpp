@@ -52,7 +52,7 @@ std::vector<MotionVerdict> MotionValidator::check(const MotionChecker& checker, 
   for (std::size_t i = 0; i < motions.size(); ++i)
   {
     const auto& [from, to] = motions[i];
-    if ((query != MotionQuery::Extension && !isWithin(*space_, from)) || !isWithin(*space_, to))
+    if (!isWithin(*space_, from) || !isWithin(*space_, to))
       continue;
     const std::size_t begin = starts.size();
     appendRow(*space_, reference_, from, starts);

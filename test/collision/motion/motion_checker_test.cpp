@@ -432,9 +432,10 @@ TEST_F(PointMotions, ThatExtendATreeAreCheckedAtAllSamplesButTheStart)
       scene_->objects = {wall(at, 0.001, 0.0, 1.0)};
       const MotionVerdict found =
           checker(rule, 0.25).check(start.data(), end.data(), 1, MotionQuery::Extension).front();
-      EXPECT_EQ(found.valid, at == 0.0) << at;
-      EXPECT_EQ(found.colliding == kNoPair, found.valid) << at;
-      EXPECT_EQ(found.first_invalid, found.valid ? 1.0 : at);
+      const auto what = [&] { return std::to_string(at) + (rule == MotionRule::Bound ? ", bound" : ", samples"); };
+      EXPECT_EQ(found.valid, at == 0.0) << what();
+      EXPECT_EQ(found.colliding == kNoPair, found.valid) << what();
+      EXPECT_EQ(found.first_invalid, found.valid ? 1.0 : at) << what();
     }
 }
 
@@ -445,9 +446,9 @@ TEST_F(PointMotions, ThatExtendATreeAreCheckedAtTheEndFirst)
   const std::vector<double> ends = {1.0, 0.0, 0.3, 0.0};
   const MotionChecker extensions = checker(MotionRule::Samples, 0.1);
   const std::vector<MotionVerdict> found = extensions.check(starts.data(), ends.data(), 2, MotionQuery::Extension);
-  EXPECT_FALSE(found[0].valid);
+  EXPECT_EQ(found[0].first_invalid, 1.0);
   EXPECT_TRUE(found[1].valid);
-  EXPECT_EQ(extensions.statesChecked(), 4U) << "1, and 0.3, 0.1 and 0.2";
+  EXPECT_EQ(extensions.statesChecked(), 4U) << "1; then 0.3, 0.1 and 0.2";
 }
 
 TEST_F(PointMotions, AreRefusedWhereStepsCutThemIntoTooManySamples)
@@ -457,6 +458,9 @@ TEST_F(PointMotions, AreRefusedWhereStepsCutThemIntoTooManySamples)
     const MotionVerdict found = verdict(checker(rule, 0.001, 500), {0.0, 0.0}, {1.0, 0.0}, true);
     EXPECT_FALSE(found.valid);
     EXPECT_EQ(found.last_valid, 0.0);
+    const std::vector<double> start = {0.0, 0.0};
+    const std::vector<double> end = {1.0, 0.0};
+    EXPECT_FALSE(checker(rule, 0.001, 500).check(start.data(), end.data(), 1, MotionQuery::Extension).front().valid);
     EXPECT_TRUE(verdict(checker(rule, 0.001, 500), {0.0, 0.0}, {0.2, 0.0}).valid);
   }
 }

@@ -543,7 +543,9 @@ void expectPromisesForRandomPaths(const RealRobot& real, const std::string& grou
   {
     WorldObject box;
     box.id = "box_" + std::to_string(i);
-    box.pose.translation() = Eigen::Vector3d(uniform(-0.8, 0.8), uniform(-0.8, 0.8), uniform(0.0, 1.0));
+    do
+      box.pose.translation() = Eigen::Vector3d(uniform(-0.8, 0.8), uniform(-0.8, 0.8), uniform(0.0, 1.0));
+    while (box.pose.translation().head<2>().norm() < 0.4);  // clear of the robot's base
     box.shapes = {{Box{{uniform(0.05, 0.3), uniform(0.05, 0.3), uniform(0.05, 0.3)}}}};
     with_boxes.objects.push_back(box);
   }

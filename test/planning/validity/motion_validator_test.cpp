@@ -64,6 +64,7 @@ TEST_F(MotionValidatorTest, FindsNoMotionValidThatIsNotDecidedInTime)
   const auto never = ob::plannerAlwaysTerminatingCondition();
   EXPECT_EQ(robot.validator().validateMotions({{from.get(), to.get()}}, never), std::vector<std::uint8_t>{0});
   EXPECT_EQ(robot.validator().validateCoarsely({{from.get(), to.get()}}, never), std::vector<std::uint8_t>{0});
+  EXPECT_EQ(robot.validator().validateExtensions({{from.get(), to.get()}}, never), std::vector<std::uint8_t>{0});
   EXPECT_FALSE(robot.validator().validatePath(robot.path({{-1.0, 0.0}, {-1.0, 1.0}}), never));
   EXPECT_EQ(robot.validator().statesChecked(), 0u);
 }
@@ -93,16 +94,20 @@ TEST_F(MotionValidatorTest, ChecksAMotionAgainUnlessItRemembersValidOnes)
   states_for({nan, 0.0}, {-1.0, 1.0}, 0);
 }
 
-/// The wall covers x from -0.5 to -0.3, with the robot from -0.55 to -0.25.
+/// The robot collides with the first wall from x = -0.55 to -0.25.
 TEST_F(MotionValidatorTest, ChecksExtensionsOfTreesWithoutTheirStarts)
 {
-  const auto vertex = robot.at({-0.28, 0.0});  // as if it were free
-  const auto valid = [&](const Position& to) {
-    return robot.validator().validateExtensions({{vertex.get(), robot.at(to).get()}}).front() != 0;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const auto valid = [&](const Position& from, const Position& to) {
+    return robot.validator().validateExtensions({{robot.at(from).get(), robot.at(to).get()}}).front() != 0;
   };
-  EXPECT_TRUE(valid({-0.22, 0.0})) << "its only other sample is the end";
-  EXPECT_FALSE(valid({-0.26, 0.0})) << "the end collides";
-  EXPECT_FALSE(valid({-3.0, 0.0})) << "the end is out of bounds";
+  EXPECT_TRUE(valid({-0.28, 0.0}, {-0.22, 0.0})) << "the start collides, and the only other sample is free";
+  EXPECT_FALSE(valid({-0.28, 0.0}, {-0.26, 0.0})) << "the end collides";
+  const std::uint64_t before = robot.validator().statesChecked();
+  EXPECT_FALSE(valid({0.0, 0.0}, {0.0, -2.5})) << "the end is out of bounds";
+  EXPECT_FALSE(valid({0.0, 0.0}, {0.0, nan}));
+  EXPECT_FALSE(valid({0.0, nan}, {0.0, 0.0}));
+  EXPECT_EQ(before, robot.validator().statesChecked());
 }
 
 TEST_F(MotionValidatorTest, ChecksCoarselyAtFourTimesTheSteps)
