@@ -1,6 +1,7 @@
 #include "bindings/arguments.h"
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <map>
 #include <memory>
@@ -54,6 +55,9 @@ std::function<std::string(const std::string&)> pathFunctionOf(py::function funct
 /// Whether an object is a numpy.ma.MaskedArray, or of a class that is derived from it.
 bool isMasked(py::handle object)
 {
+  // To find that a plain array has no mask takes a third of the time of a call with one state.
+  if (std::strcmp(Py_TYPE(object.ptr())->tp_name, "numpy.ndarray") == 0)
+    return false;
   return py::isinstance<py::array>(object) && py::hasattr(object, "mask") &&
          py::isinstance(object, py::module_::import("numpy.ma").attr("MaskedArray"));
 }
