@@ -44,8 +44,8 @@ class Stopwatch
 template <class Work>
 double secondsOf(const Work& work)
 {
-  const Stopwatch watch;
+  const auto start = std::chrono::steady_clock::now();  // and not a Stopwatch: reading the CPU time takes 0.4 us
   work();
-  return watch.seconds();
+  return secondsSince(start);
 }
 }  // namespace gpu_planning_scene::core::benchmark

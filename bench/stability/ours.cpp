@@ -135,8 +135,6 @@ Proof proofOf(const std::shared_ptr<const RobotModel>& robot, const Case& made, 
   const CpuForest forest(*part.problem);
   const LaneScene scene(*robot, *part.problem, forest,
                         std::make_shared<const RobotProofs>(ballsOf(*part.problem, forest)));
-  LaneBuffers buffers;
-  const lanes::Scratch scratch = buffers.of(scene);
   std::vector<Eigen::Isometry3d> poses(part.linkCount());
   part.linkPoses(0, poses.data());
   std::vector<double> state = robot->defaultState();
@@ -149,8 +147,9 @@ Proof proofOf(const std::shared_ptr<const RobotModel>& robot, const Case& made, 
   Proof proof = Proof::None;
   for (const lanes::NamedKernel& kernel : lanes::availableKernels())
   {
+    LaneBuffers buffers;
     lanes::Block block;
-    kernel.kernel(scene.model(), state.data(), 1, nullptr, scratch, block);
+    kernel.kernel(scene.model(), state.data(), 1, nullptr, buffers.of(scene), block);
     const Proof other = block.proof[0];
     if (proof != Proof::None && other != Proof::None && proof != other)
       throw std::logic_error(kernel.instructions + std::string(": the kernels prove different verdicts"));

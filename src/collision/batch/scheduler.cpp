@@ -137,36 +137,43 @@ DeviceTask Scheduler::taskOf(const std::string& group)
 BatchResult Scheduler::check(const StateBatch& asked)
 {
   const std::shared_lock<ChangeGate> lock(gate_);
-  const auto& problem = scene_.problem(asked.group);  // throws for an unknown group
-  validateStates(*scene_.scene()->robot, asked.states, asked.count);
   const auto start = Clock::now();
-  std::optional<Margins> margins;
-  if (asked.around)
-    margins = scene_.margins(*asked.around, asked.states, asked.count, asked.group);
   const bool by_device = devices_.isDeviceOnly() && !devices_.isEmpty() && asked.count != 0;
-  const bool on_caller = problem->always_colliding || (asked.count <= kFewStates && !by_device);
-  BatchResult result =
-      on_caller ? checkOnCaller(asked, margins ? &*margins : nullptr) : checkTogether(asked, std::move(margins));
+  const bool on_caller =
+      (asked.count <= kFewStates && !by_device) || scene_.problem(asked.group)->always_colliding.has_value();
+  BatchResult result = on_caller ? checkOnCaller(asked) : checkTogether(asked);
   result.revision = scene_.scene()->revision;
   result.seconds = secondsSince(start);
   return result;
 }
 
-BatchResult Scheduler::checkOnCaller(const StateBatch& asked, const Margins* margins)
+/// Validates the states, and returns their margins if the batch has a neighbourhood.
+std::optional<Margins> Scheduler::marginsOf(const StateBatch& asked)
 {
+  validateStates(*scene_.scene()->robot, asked.states, asked.count);
+  if (!asked.around)
+    return {};
+  return scene_.margins(*asked.around, asked.states, asked.count, asked.group);
+}
+
+/// For a single state, the locks of a check take time that counts: here they are two of the scene.
+BatchResult Scheduler::checkOnCaller(const StateBatch& asked)
+{
+  CpuScene::Core core(scene_, asked.group);  // throws for an unknown group
+  const std::optional<Margins> margins = marginsOf(asked);
   BatchResult result;
   result.valid.assign(asked.count, 1);
   result.colliding.assign(asked.count, kNoPair);
-  CpuScene::Core(scene_, asked.group).check(asked.states, {{0, asked.count}}, margins, result);
-  scene_.countBatch(asked.count, 0, asked.group);
+  core.check(asked.states, {{0, asked.count}}, margins ? &*margins : nullptr, result);
+  core.endBatch(asked.count);
   if (!devices_.isEmpty())
     noteWork({});
   return result;
 }
 
-BatchResult Scheduler::checkTogether(const StateBatch& asked, std::optional<Margins> margins)
+BatchResult Scheduler::checkTogether(const StateBatch& asked)
 {
-  const auto batch = std::make_shared<Batch>(asked.count, std::move(margins), availableCores());
+  const auto batch = std::make_shared<Batch>(asked.count, marginsOf(asked), availableCores());
   const Finally close([&] { batch->close(); });
   DeviceJoin devices(*this, asked, batch);
   Progress progress(asked, *batch);

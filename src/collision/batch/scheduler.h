@@ -48,8 +48,9 @@ class Scheduler
 
   void setOnCpu(std::shared_ptr<const PlanningScene> scene);
   DeviceTask taskOf(const std::string& group);
-  BatchResult checkOnCaller(const StateBatch& asked, const Margins* margins);
-  BatchResult checkTogether(const StateBatch& asked, std::optional<Margins> margins);
+  std::optional<Margins> marginsOf(const StateBatch& asked);
+  BatchResult checkOnCaller(const StateBatch& asked);
+  BatchResult checkTogether(const StateBatch& asked);
   void runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devices, Progress& progress);
   void noteWork(const GpuWork& work);
 

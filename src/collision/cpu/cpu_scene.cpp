@@ -156,14 +156,16 @@ Margins CpuScene::margins(const JointNeighbourhood& around, const double* states
   return bounds->margins(around, states, count);
 }
 
-/// Counts the states of a part. Returns true if the lane checker takes it; its proofs are then ready in the scratch.
-bool CpuScene::countPart(std::size_t count, Group& group, Scratch& scratch, bool has_margins)
+void CpuScene::count(std::size_t states, Group& group)
 {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  checked_ += count;
-  group.checked += count;
-  // A single state does not go to the lanes.
-  if (count <= 1 || group.checked <= kStatesBeforeLanes || proofStage(group) == ProofStage::None)
+  checked_ += states;
+  group.checked += states;
+}
+
+/// Whether the lane checker takes the states of a part. If so, its proofs are ready in the scratch.
+bool CpuScene::takesByLanes(Group& group, Scratch& scratch, bool has_margins)
+{
+  if (group.checked <= kStatesBeforeLanes || proofStage(group) == ProofStage::None)
     return false;
   group.lanes->useProofs(has_margins ? scratch.near_lanes : scratch.lanes);
   return true;
@@ -194,6 +196,22 @@ CpuScene::Core::~Core()
   if (!scratch_)
     return;
   const std::lock_guard<std::mutex> lock(scene_.mutex_);
+  giveBack();
+}
+
+void CpuScene::Core::endBatch(std::size_t count)
+{
+  if (!scratch_)
+    return;
+  const std::lock_guard<std::mutex> lock(scene_.mutex_);
+  giveBack();
+  scene_.loadProofs(*group_, count);
+}
+
+/// The caller holds the mutex of the scene.
+void CpuScene::Core::giveBack()
+{
+  scene_.count(uncounted_, *group_);
   group_->scratches.push_back(std::move(scratch_));
 }
 
@@ -214,7 +232,14 @@ std::size_t CpuScene::Core::check(const double* states, const std::vector<StateR
     }
     return count;
   }
-  const bool by_lanes = scene_.countPart(count, *group_, *scratch_, margins != nullptr);
+  uncounted_ += count;
+  bool by_lanes = false;
+  if (count > 1)  // a single state does not go to the lanes
+  {
+    const std::lock_guard<std::mutex> lock(scene_.mutex_);
+    scene_.count(std::exchange(uncounted_, 0), *group_);
+    by_lanes = scene_.takesByLanes(*group_, *scratch_, margins != nullptr);
+  }
   for (const StateRange& range : part)
     for (std::size_t i = range.begin; i < range.end(); i += lanes::kLanes)
       checkBlock(states, i, std::min<std::size_t>(i + lanes::kLanes, range.end()), margins, by_lanes, result);

@@ -75,7 +75,12 @@ class CpuScene
     std::size_t check(const double* states, const std::vector<StateRange>& part, const Margins* margins,
                       BatchResult& result);
 
+    /// Counts a batch of `count` states that this core has checked alone, as CpuScene::countBatch does. Nothing can be
+    /// checked with this core afterwards.
+    void endBatch(std::size_t count);
+
    private:
+    void giveBack();
     void checkBlock(const double* states, std::size_t begin, std::size_t end, const Margins* margins, bool by_lanes,
                     BatchResult& result);
     void checkRow(const double* state, std::size_t row, const Margins* margins, BatchResult& result);
@@ -86,6 +91,7 @@ class CpuScene
     Group* group_ = nullptr;
     const ExactChecker* outside_ = nullptr;  // null: not needed yet
     std::unique_ptr<Scratch> scratch_;
+    std::size_t uncounted_ = 0;  // states that the scene has not counted yet
   };
 
  private:
@@ -127,7 +133,8 @@ class CpuScene
   void prepare(Group& group, const std::shared_ptr<const RobotModel>& robot);
   ProofStage proofStage(Group& group) const;
   void loadProofs(Group& group, std::size_t count) const;
-  bool countPart(std::size_t count, Group& group, Scratch& scratch, bool has_margins);
+  void count(std::size_t states, Group& group);
+  bool takesByLanes(Group& group, Scratch& scratch, bool has_margins);
 
   CheckerOptions options_;
   ProblemMaker maker_;

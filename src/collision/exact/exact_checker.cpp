@@ -96,7 +96,7 @@ void ExactChecker::place(std::uint32_t instance, const Isometry3d* link_poses, S
   if (scratch.placed[instance] == 0)
   {
     const ShapeInstance& shape = problem_->robot[instance];
-    scratch.poses[instance] = link_poses[shape.link] * shape.pose;
+    scratch.poses[instance].matrix().noalias() = link_poses[shape.link].matrix() * shape.pose.matrix();  // vectorised
     scratch.bounds[instance] = boundsOf(forest_->tree(shape.tree), scratch.poses[instance]);
     scratch.placed[instance] = 1;
   }

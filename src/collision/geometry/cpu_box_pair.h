@@ -96,7 +96,7 @@ inline Eigen::Isometry3d relativePose(const Eigen::Isometry3d& a, const Eigen::I
 
 inline OrientedBox placed(const OrientedBox& box, const Eigen::Isometry3d& pose)
 {
-  return {pose.linear() * box.axes, pose * box.center, box.half};
+  return {pose.linear() * box.axes, pose.linear() * box.center + pose.translation(), box.half};
 }
 
 /// Whether two boxes in one frame overlap after the first box has been grown by `growth` on all sides. Computes the

@@ -13,15 +13,21 @@ template <class Holds>
 std::vector<std::size_t> rowsWithout(std::size_t count, const Holds& holds)
 {
   constexpr std::size_t kRowsPerChunk = 16'384;  // testing these takes longer than starting a thread
+  const auto find = [&holds](std::size_t begin, std::size_t end, std::vector<std::size_t>& rows)
+  {
+    for (std::size_t row = begin; row < end; ++row)
+      if (!holds(row))
+        rows.push_back(row);
+  };
+  std::vector<std::size_t> rows;
+  if (count <= kRowsPerChunk)
+  {
+    find(0, count, rows);
+    return rows;
+  }
   std::vector<std::vector<std::size_t>> found((count + kRowsPerChunk - 1) / kRowsPerChunk);
   parallelFor(count, kRowsPerChunk,
-              [&found, &holds](std::size_t begin, std::size_t end)
-              {
-                for (std::size_t row = begin; row < end; ++row)
-                  if (!holds(row))
-                    found[begin / kRowsPerChunk].push_back(row);
-              });
-  std::vector<std::size_t> rows;
+              [&](std::size_t begin, std::size_t end) { find(begin, end, found[begin / kRowsPerChunk]); });
   for (const std::vector<std::size_t>& part : found)
     rows.insert(rows.end(), part.begin(), part.end());
   return rows;

@@ -44,18 +44,23 @@ bool ObjectTree::visitOverlapping(const Eigen::AlignedBox3d& bounds, std::vector
     return false;
   const Eigen::Vector3d center = bounds.center();
   const Eigen::Vector3d half = 0.5 * bounds.sizes();
-  stack.assign(1, 0u);
+  stack.clear();
+  const auto push = [&](std::uint32_t number)
+  {
+    const Node& node = tree_.nodes[number];
+    // Not apart for infinite bounds: their centre is infinite or NaN, and their half size is infinite.
+    if (!((centerOf(node) - center).cwiseAbs().array() > (halfOf(node) + half).array()).any())
+      stack.push_back(number);
+  };
+  push(0);
   while (!stack.empty())
   {
     const Node& node = tree_.nodes[stack.back()];
     stack.pop_back();
-    // False for infinite bounds: their centre is infinite or NaN, and their half size is infinite.
-    if (((centerOf(node) - center).cwiseAbs().array() > (halfOf(node) + half).array()).any())
-      continue;
     if (node.count == 0)
     {
-      stack.push_back(node.first);
-      stack.push_back(node.first + 1);
+      push(node.first);
+      push(node.first + 1);
       continue;
     }
     const std::uint32_t object = tree_.order[node.first];

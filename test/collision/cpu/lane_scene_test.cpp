@@ -1,5 +1,6 @@
 // Blocks of states have the verdicts of the exact checker, with each instruction set; and each proof holds.
 
+#include <array>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -147,6 +148,44 @@ TEST_P(ProvenScenes, PairsThatAreProvenApartKeepTheirMarginsIfThereAreAny)
       EXPECT_GT(apart, open);
     }
   }
+}
+
+/// Random states in which the base rests for many states, moves to another place, and moves for a while.
+std::vector<double> withMovesOfTheBase(const ProvenScene& proven, std::size_t count)
+{
+  constexpr std::array<double, 4> kStep = {0.3, -0.2, 0.1, 0.4};  // metres or radians
+  const lanes::Base& base = proven.lanes->model().base;
+  std::mt19937_64 generator(kSeed + 5);
+  std::uniform_int_distribution<std::size_t> one_of_forty(0, 39);
+  std::uniform_int_distribution<int> places(-1, 1);
+  const std::vector<double> rests = proven.scene.scene->robot->defaultState();
+  std::vector<double> states = proven.scene.randomStates(count, kSeed + 6);
+  const std::size_t width = proven.lanes->model().width;
+  std::uniform_int_distribution<std::size_t> one_variable(0, static_cast<std::size_t>(base.variables) - 1);
+  std::array<int, lanes::kMostBaseVariables> place{};
+  bool moves = false;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (one_of_forty(generator) == 0)
+      moves = !moves;
+    if (moves || one_of_forty(generator) == 0)
+      place[one_variable(generator)] = places(generator);
+    double* const values = &states[i * width + static_cast<std::size_t>(base.variable)];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(base.variables); ++k)
+      values[k] = rests[static_cast<std::size_t>(base.variable) + k] + place[k] * kStep[k % kStep.size()];
+  }
+  return states;
+}
+
+TEST(RobotOnAMovingBase, HasTheProofsOfItsStatesWhileTheBaseRestsAndMoves)
+{
+  constexpr std::size_t kStates = repetitions(2000, 20000);
+  const ProvenScene proven = prove(testScene("arm_driven"));
+  ASSERT_GT(proven.lanes->model().base.frames, 0U);
+  const std::vector<double> states = withMovesOfTheBase(proven, kStates);
+  const std::vector<InstancePairs> colliding = collidingPairs(proven, states);
+  for (const lanes::NamedKernel& kernel : lanes::availableKernels())
+    EXPECT_GT(compare(proven, kernel, states, colliding), kStates / 4) << kernel.instructions;
 }
 
 const char* const kJointLimit = "<limit lower='-3' upper='3' effort='1' velocity='1'/>";

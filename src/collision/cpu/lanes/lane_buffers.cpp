@@ -1,5 +1,7 @@
 #include "collision/cpu/lanes/lane_buffers.h"
 
+#include <limits>
+
 namespace gpu_planning_scene::core
 {
 lanes::Scratch LaneBuffers::of(const LaneScene& scene)
@@ -14,12 +16,18 @@ lanes::Scratch LaneBuffers::of(const LaneScene& scene)
   open_.resize(lanes::kLanes * scene.pairCount() + 1);
   open_pairs_.resize(scene.pairCount() + 1);
   trials_.resize(std::size_t{lanes::kTests} * scene.pairCount(), lanes::Trial{});
+  base_.resize(lanes::kMostBaseVariables, std::numeric_limits<double>::quiet_NaN());
   float* const first = floats_.data();
   float* const first_ball = first + frames + centers;
-  return {first,          first + frames,
-          first_ball,     first_ball + balls,
-          placed_.data(), placed_.data() + model.instances.count,
-          open_.data(),   open_pairs_.data(),
+  return {first,
+          base_.data(),
+          first + frames,
+          first_ball,
+          first_ball + balls,
+          placed_.data(),
+          placed_.data() + model.instances.count,
+          open_.data(),
+          open_pairs_.data(),
           trials_.data()};
 }
 }  // namespace gpu_planning_scene::core

@@ -11,11 +11,16 @@ namespace gpu_planning_scene::core
 class LaneBuffers
 {
  public:
-  /// The kernel's work space for a scene. It is valid until the next call. The trials are kept from call to call.
+  /// The kernel's work space for a scene. It is valid until the next call. The trials and the frames of the base are
+  /// kept from call to call.
   lanes::Scratch of(const LaneScene& scene);
 
-  /// Must be called before another scene is used: it numbers its pairs differently.
-  void forgetTrials() { trials_.clear(); }
+  /// Must be called before another scene is used: it has other pairs and frames.
+  void forget()
+  {
+    trials_.clear();
+    base_.clear();
+  }
 
  private:
   std::vector<float> floats_;
@@ -23,5 +28,6 @@ class LaneBuffers
   std::vector<std::uint32_t> open_;
   std::vector<lanes::OpenPair> open_pairs_;
   std::vector<lanes::Trial> trials_;
+  std::vector<double> base_;
 };
 }  // namespace gpu_planning_scene::core

@@ -35,8 +35,7 @@ ProofStage LaneChecker::requestProofs()
   return !proofs ? ProofStage::None : proofs->has_all_tables ? ProofStage::All : ProofStage::Covers;
 }
 
-/// Clears the scratch's records and trials if they belong to other proofs: with new tables, the pairs have other
-/// numbers.
+/// Clears what the scratch has kept for other proofs: with new tables, the pairs have other numbers.
 void LaneChecker::useProofs(Scratch& scratch)
 {
   if (const std::shared_ptr<const RobotProofs> proofs = job_->proofs(); proofs != proofs_)
@@ -47,7 +46,7 @@ void LaneChecker::useProofs(Scratch& scratch)
   if (scratch.scene == scene_)
     return;
   scratch.scene = scene_;
-  scratch.buffers.forgetTrials();
+  scratch.buffers.forget();
   scratch.records.assign(scene_->pairCount(), PairRecord{});
 }
 

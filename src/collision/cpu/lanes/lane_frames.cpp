@@ -53,8 +53,12 @@ LaneFrames::LaneFrames(const RobotModel& robot, const Vector3d& origin, const la
       in_frame_.push_back(pose);
       continue;
     }
+    const bool is_first = std::all_of(frames_.begin(), frames_.end(),
+                                      [](const lanes::Frame& f) { return f.kind == lanes::FrameKind::Fixed; });
     frame_of_link_.push_back(addFramesOf(robot, joint, has_parent ? frame_of_link_[parent] : -1, pose));
     in_frame_.push_back(Isometry3d::Identity());
+    if (is_first && (joint.type == JointType::Planar || joint.type == JointType::Floating))
+      base_ = {static_cast<std::uint32_t>(frames_.size()), joint.first_variable, variableCount(joint.type)};
   }
 }
 

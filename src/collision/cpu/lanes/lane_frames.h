@@ -37,6 +37,7 @@ class LaneFrames
   LaneFrames(const RobotModel& robot, const Eigen::Vector3d& origin, const lanes::Rounding& rounding);
 
   const std::vector<lanes::Frame>& frames() const { return frames_; }
+  const lanes::Base& base() const { return base_; }
   int ofLink(std::size_t link) const { return frame_of_link_[link]; }
   /// The pose of a link in its frame.
   const Eigen::Isometry3d& poseInFrame(std::size_t link) const { return in_frame_[link]; }
@@ -74,6 +75,7 @@ class LaneFrames
   std::vector<Eigen::Isometry3d> in_frame_;  // of each link
   std::vector<Limit> limits_;                // of each variable
   std::vector<lanes::Frame> frames_;
+  lanes::Base base_{};
   std::vector<LaneFrameError> errors_;
 };
 }  // namespace gpu_planning_scene::core

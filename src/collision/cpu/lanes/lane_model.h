@@ -40,6 +40,17 @@ struct Frame
   float second[12];
 };
 
+/// The first frames of a robot whose first moving joint is planar or floating: those of this joint, and fixed ones
+/// before it. Often all states have the same values of its variables, for example those of a group. Then these frames
+/// are computed once and not in each block.
+struct Base
+{
+  std::uint32_t frames;  ///< their number; 0: the first moving joint is of another type
+  int variable;          ///< the joint's first variable
+  int variables;
+};
+constexpr int kMostBaseVariables = 7;  ///< those of a floating joint
+
 /// Balls as arrays of coordinates. Unused places hold copies of used ones.
 struct Balls
 {
@@ -186,6 +197,7 @@ struct Array
 struct Model
 {
   std::size_t width;  ///< variables of a state
+  Base base;
   Array<Frame> frames;
   Array<Instance> instances;
   Array<Object> objects;
@@ -221,6 +233,7 @@ struct OpenPair
 struct Scratch
 {
   float* frames;         ///< of each frame: 12 numbers in all lanes
+  double* base;          ///< kMostBaseVariables: those for which the frames of the base are set; NaN: they are not set
   float* centers;        ///< of each instance: the centre of its enclosing ball in all lanes; then of each cluster
   float* balls;          ///< of each instance: the coordinates of its outer and inner balls in one lane
   float* boxes;          ///< of each instance: its box in all lanes

@@ -53,9 +53,9 @@ LaneScene::LaneScene(const RobotModel& robot, const CollisionProblem& problem, c
   findLinkCenters(problem);
   addSelfPairs(problem);
   addWorld(problem, forest);
-  model_ = {robot.variables().size(), arrayOf(frames_.frames()), arrayOf(instances_),  arrayOf(objects_),
-            arrayOf(tables_),         arrayOf(clusters_),        arrayOf(self_pairs_), arrayOf(self_groups_),
-            arrayOf(world_pairs_),    arrayOf(world_groups_)};
+  model_ = {robot.variables().size(), frames_.base(),        arrayOf(frames_.frames()), arrayOf(instances_),
+            arrayOf(objects_),        arrayOf(tables_),      arrayOf(clusters_),        arrayOf(self_pairs_),
+            arrayOf(self_groups_),    arrayOf(world_pairs_), arrayOf(world_groups_)};
 }
 
 static_assert(kCoverBalls.size() == lanes::kLevels + 1, "levels of the kernel");
