@@ -156,7 +156,8 @@ std::optional<Margins> Scheduler::marginsOf(const StateBatch& asked)
   return scene_.margins(*asked.around, asked.states, asked.count, asked.group);
 }
 
-/// For a single state, the locks of a check take time that counts: here they are two of the scene.
+/// The Core locks the scene when it is made and in endBatch. The check of a single state usually needs no other lock of
+/// the scene, because each lock takes a percent of its time.
 BatchResult Scheduler::checkOnCaller(const StateBatch& asked)
 {
   CpuScene::Core core(scene_, asked.group);  // throws for an unknown group

@@ -121,7 +121,7 @@ ContactShape InspectedGroup::shapeOf(std::size_t instance, const std::vector<Eig
   const bool is_robot = instance < problem().robot.size();
   const ShapeInstance& shape =
       is_robot ? problem().robot[instance] : problem().world[instance - problem().robot.size()];
-  const Eigen::Isometry3d pose = is_robot ? link_poses[static_cast<std::size_t>(shape.link)] * shape.pose : shape.pose;
+  const Eigen::Isometry3d pose = is_robot ? placed(shape, link_poses.data()) : shape.pose;
   return {&prepared_.forest->tree(shape.tree), pose, convex_.isConvex(shape.tree)};
 }
 

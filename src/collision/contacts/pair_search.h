@@ -62,7 +62,7 @@ class PairSearch
   {
     for (const ShapeInstance& instance : problem.robot)
     {
-      poses_.push_back(link_poses[instance.link] * instance.pose);
+      poses_.push_back(placed(instance, link_poses));
       bounds_.push_back(boundsOf(forest_.tree(instance.tree), poses_.back()));
     }
   }

@@ -156,14 +156,14 @@ Margins CpuScene::margins(const JointNeighbourhood& around, const double* states
   return bounds->margins(around, states, count);
 }
 
-void CpuScene::count(std::size_t states, Group& group)
+void CpuScene::countStates(std::size_t count, Group& group)
 {
-  checked_ += states;
-  group.checked += states;
+  checked_ += count;
+  group.checked += count;
 }
 
-/// Whether the lane checker takes the states of a part. If so, its proofs are ready in the scratch.
-bool CpuScene::takesByLanes(Group& group, Scratch& scratch, bool has_margins)
+/// Makes the newest proofs ready in the scratch. Returns false if the lane checker is not to be used.
+bool CpuScene::prepareLanes(Group& group, Scratch& scratch, bool has_margins)
 {
   if (group.checked <= kStatesBeforeLanes || proofStage(group) == ProofStage::None)
     return false;
@@ -211,7 +211,7 @@ void CpuScene::Core::endBatch(std::size_t count)
 /// The caller holds the mutex of the scene.
 void CpuScene::Core::giveBack()
 {
-  scene_.count(uncounted_, *group_);
+  scene_.countStates(uncounted_, *group_);
   group_->scratches.push_back(std::move(scratch_));
 }
 
@@ -237,8 +237,8 @@ std::size_t CpuScene::Core::check(const double* states, const std::vector<StateR
   if (count > 1)  // a single state does not go to the lanes
   {
     const std::lock_guard<std::mutex> lock(scene_.mutex_);
-    scene_.count(std::exchange(uncounted_, 0), *group_);
-    by_lanes = scene_.takesByLanes(*group_, *scratch_, margins != nullptr);
+    scene_.countStates(std::exchange(uncounted_, 0), *group_);
+    by_lanes = scene_.prepareLanes(*group_, *scratch_, margins != nullptr);
   }
   for (const StateRange& range : part)
     for (std::size_t i = range.begin; i < range.end(); i += lanes::kLanes)

@@ -75,8 +75,8 @@ class CpuScene
     std::size_t check(const double* states, const std::vector<StateRange>& part, const Margins* margins,
                       BatchResult& result);
 
-    /// Counts a batch of `count` states that this core has checked alone, as CpuScene::countBatch does. Nothing can be
-    /// checked with this core afterwards.
+    /// Ends a batch of `count` states that this core has checked alone: gives the work space back, counts the states
+    /// and loads proofs as CpuScene::countBatch does, with one lock. `check` must not be called afterwards.
     void endBatch(std::size_t count);
 
    private:
@@ -133,8 +133,8 @@ class CpuScene
   void prepare(Group& group, const std::shared_ptr<const RobotModel>& robot);
   ProofStage proofStage(Group& group) const;
   void loadProofs(Group& group, std::size_t count) const;
-  void count(std::size_t states, Group& group);
-  bool takesByLanes(Group& group, Scratch& scratch, bool has_margins);
+  void countStates(std::size_t count, Group& group);
+  bool prepareLanes(Group& group, Scratch& scratch, bool has_margins);
 
   CheckerOptions options_;
   ProblemMaker maker_;

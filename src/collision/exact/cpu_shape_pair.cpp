@@ -91,7 +91,7 @@ bool containsComponent(const CpuTree& outer, const CpuTree& inner, const Isometr
 
 AlignedBox3d boundsOf(const CpuTree& tree, const Isometry3d& pose)
 {
-  const Vector3d center = pose.linear() * tree.center + pose.translation();
+  const Vector3d center = transformed(tree.center, pose);
   const Vector3d half = (pose.linear().cwiseAbs() * tree.half).array() + kBoxMargin;
   return {center - half, center + half};
 }

@@ -96,7 +96,7 @@ void ExactChecker::place(std::uint32_t instance, const Isometry3d* link_poses, S
   if (scratch.placed[instance] == 0)
   {
     const ShapeInstance& shape = problem_->robot[instance];
-    scratch.poses[instance].matrix().noalias() = link_poses[shape.link].matrix() * shape.pose.matrix();  // vectorised
+    scratch.poses[instance] = placed(shape, link_poses);
     scratch.bounds[instance] = boundsOf(forest_->tree(shape.tree), scratch.poses[instance]);
     scratch.placed[instance] = 1;
   }
@@ -210,7 +210,7 @@ std::optional<BodyPair> ExactChecker::firstCollisionOf(const OpenPair* pairs, st
   {
     for (const std::uint32_t instance : pairs[i].instances)
       if (instance < robot.size())
-        scratch.poses[instance] = link_poses[robot[instance].link] * robot[instance].pose;
+        scratch.poses[instance] = placed(robot[instance], link_poses);
     const std::uint64_t before = scratch.pair.steps;
     const bool collide = collides(pairs[i].instances, pairs[i].margin, scratch);
     steps.push_back(scratch.pair.steps - before);

@@ -94,9 +94,15 @@ inline Eigen::Isometry3d relativePose(const Eigen::Isometry3d& a, const Eigen::I
   return b_in_a;
 }
 
+/// Eigen's product of a pose and a point is not inlined.
+inline Eigen::Vector3d transformed(const Eigen::Vector3d& point, const Eigen::Isometry3d& pose)
+{
+  return pose.linear() * point + pose.translation();
+}
+
 inline OrientedBox placed(const OrientedBox& box, const Eigen::Isometry3d& pose)
 {
-  return {pose.linear() * box.axes, pose.linear() * box.center + pose.translation(), box.half};
+  return {pose.linear() * box.axes, transformed(box.center, pose), box.half};
 }
 
 /// Whether two boxes in one frame overlap after the first box has been grown by `growth` on all sides. Computes the

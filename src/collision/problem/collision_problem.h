@@ -25,6 +25,16 @@ struct ShapeInstance
   double padding = 0.0;    ///< metres; a robot and a world instance collide up to the sum of their paddings
 };
 
+/// The pose of a robot's instance in the planning frame. All checks use this product, so that a pair has the same
+/// verdict in each of them.
+inline Eigen::Isometry3d placed(const ShapeInstance& instance, const Eigen::Isometry3d* link_poses)
+{
+  // Eigen vectorises products of 4x4 matrices. The last rows are exactly 0 0 0 1.
+  Eigen::Isometry3d pose;
+  pose.matrix().noalias() = link_poses[instance.link].matrix() * instance.pose.matrix();
+  return pose;
+}
+
 /// A half-space of the world, in the planning frame: all points x with normal . x <= offset.
 struct WorldHalfSpace
 {

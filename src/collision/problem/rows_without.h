@@ -13,7 +13,7 @@ template <class Holds>
 std::vector<std::size_t> rowsWithout(std::size_t count, const Holds& holds)
 {
   constexpr std::size_t kRowsPerChunk = 16'384;  // testing these takes longer than starting a thread
-  const auto find = [&holds](std::size_t begin, std::size_t end, std::vector<std::size_t>& rows)
+  const auto collect = [&holds](std::size_t begin, std::size_t end, std::vector<std::size_t>& rows)
   {
     for (std::size_t row = begin; row < end; ++row)
       if (!holds(row))
@@ -22,12 +22,12 @@ std::vector<std::size_t> rowsWithout(std::size_t count, const Holds& holds)
   std::vector<std::size_t> rows;
   if (count <= kRowsPerChunk)
   {
-    find(0, count, rows);
+    collect(0, count, rows);  // without the memory for several parts: this may be a single state
     return rows;
   }
   std::vector<std::vector<std::size_t>> found((count + kRowsPerChunk - 1) / kRowsPerChunk);
   parallelFor(count, kRowsPerChunk,
-              [&](std::size_t begin, std::size_t end) { find(begin, end, found[begin / kRowsPerChunk]); });
+              [&](std::size_t begin, std::size_t end) { collect(begin, end, found[begin / kRowsPerChunk]); });
   for (const std::vector<std::size_t>& part : found)
     rows.insert(rows.end(), part.begin(), part.end());
   return rows;

@@ -45,22 +45,22 @@ bool ObjectTree::visitOverlapping(const Eigen::AlignedBox3d& bounds, std::vector
   const Eigen::Vector3d center = bounds.center();
   const Eigen::Vector3d half = 0.5 * bounds.sizes();
   stack.clear();
-  const auto push = [&](std::uint32_t number)
+  const auto pushIfNear = [&](std::uint32_t index)
   {
-    const Node& node = tree_.nodes[number];
+    const Node& node = tree_.nodes[index];
     // Not apart for infinite bounds: their centre is infinite or NaN, and their half size is infinite.
     if (!((centerOf(node) - center).cwiseAbs().array() > (halfOf(node) + half).array()).any())
-      stack.push_back(number);
+      stack.push_back(index);
   };
-  push(0);
+  pushIfNear(0);
   while (!stack.empty())
   {
     const Node& node = tree_.nodes[stack.back()];
     stack.pop_back();
     if (node.count == 0)
     {
-      push(node.first);
-      push(node.first + 1);
+      pushIfNear(node.first);
+      pushIfNear(node.first + 1);
       continue;
     }
     const std::uint32_t object = tree_.order[node.first];

@@ -1,6 +1,7 @@
 // Blocks of states have the verdicts of the exact checker, with each instruction set; and each proof holds.
 
 #include <array>
+#include <functional>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -41,19 +42,27 @@ struct Proven
   std::vector<std::uint32_t> open;  // pairs without a proof, unless it collides
 };
 
-/// Runs a kernel on all states and calls visit(state, its result).
+using BlockSize = std::function<int()>;
+
+int fullBlock()
+{
+  return lanes::kLanes;
+}
+
+/// Runs a kernel on all states, in blocks of these sizes, and calls visit(state, its result).
 template <class Visit>
 void proveAll(const ProvenScene& proven, const lanes::NamedKernel& kernel, const std::vector<double>& states,
-              const float* margins, const Visit& visit)
+              const float* margins, const Visit& visit, const BlockSize& block_size = fullBlock)
 {
   const lanes::Model& model = proven.lanes->model();
   LaneBuffers buffers;
   const lanes::Scratch scratch = buffers.of(*proven.lanes);
   const std::size_t pairs = proven.lanes->pairCount();
   const std::size_t count = states.size() / model.width;
-  for (std::size_t first = 0; first < count; first += lanes::kLanes)
+  int size = 0;
+  for (std::size_t first = 0; first < count; first += static_cast<std::size_t>(size))
   {
-    const int size = static_cast<int>(std::min<std::size_t>(lanes::kLanes, count - first));
+    size = std::min(block_size(), static_cast<int>(count - first));
     std::fill_n(scratch.trials, lanes::kTests * pairs, lanes::Trial{});  // so that no test is left out
     lanes::Block block;
     kernel.kernel(model, states.data() + first * model.width, size, margins, scratch, block);
@@ -69,20 +78,22 @@ void proveAll(const ProvenScene& proven, const lanes::NamedKernel& kernel, const
 /// Runs a kernel on all states and compares its proofs with the pairs that collide. Returns the number of proven
 /// states.
 std::size_t compare(const ProvenScene& proven, const lanes::NamedKernel& kernel, const std::vector<double>& states,
-                    const std::vector<InstancePairs>& colliding)
+                    const std::vector<InstancePairs>& colliding, const BlockSize& block_size = fullBlock)
 {
   std::size_t proven_states = 0;
-  proveAll(proven, kernel, states, nullptr,
-           [&](std::size_t state, const Proven& result)
-           {
-             const InstancePairs& pairs = colliding[state];
-             if (result.proof == Proof::Apart)
-               EXPECT_TRUE(pairs.empty()) << kernel.instructions << ", seed " << kSeed;
-             if (result.proof == Proof::Colliding)
-               EXPECT_EQ(std::count(pairs.begin(), pairs.end(), proven.lanes->instancesOf(result.pair)), 1)
-                   << kernel.instructions << ", seed " << kSeed;
-             proven_states += result.proof == Proof::None ? 0 : 1;
-           });
+  proveAll(
+      proven, kernel, states, nullptr,
+      [&](std::size_t state, const Proven& result)
+      {
+        const InstancePairs& pairs = colliding[state];
+        if (result.proof == Proof::Apart)
+          EXPECT_TRUE(pairs.empty()) << kernel.instructions << ", seed " << kSeed;
+        if (result.proof == Proof::Colliding)
+          EXPECT_EQ(std::count(pairs.begin(), pairs.end(), proven.lanes->instancesOf(result.pair)), 1)
+              << kernel.instructions << ", seed " << kSeed;
+        proven_states += result.proof == Proof::None ? 0 : 1;
+      },
+      block_size);
   return proven_states;
 }
 
@@ -148,44 +159,6 @@ TEST_P(ProvenScenes, PairsThatAreProvenApartKeepTheirMarginsIfThereAreAny)
       EXPECT_GT(apart, open);
     }
   }
-}
-
-/// Random states in which the base rests for many states, moves to another place, and moves for a while.
-std::vector<double> withMovesOfTheBase(const ProvenScene& proven, std::size_t count)
-{
-  constexpr std::array<double, 4> kStep = {0.3, -0.2, 0.1, 0.4};  // metres or radians
-  const lanes::Base& base = proven.lanes->model().base;
-  std::mt19937_64 generator(kSeed + 5);
-  std::uniform_int_distribution<std::size_t> one_of_forty(0, 39);
-  std::uniform_int_distribution<int> places(-1, 1);
-  const std::vector<double> rests = proven.scene.scene->robot->defaultState();
-  std::vector<double> states = proven.scene.randomStates(count, kSeed + 6);
-  const std::size_t width = proven.lanes->model().width;
-  std::uniform_int_distribution<std::size_t> one_variable(0, static_cast<std::size_t>(base.variables) - 1);
-  std::array<int, lanes::kMostBaseVariables> place{};
-  bool moves = false;
-  for (std::size_t i = 0; i < count; ++i)
-  {
-    if (one_of_forty(generator) == 0)
-      moves = !moves;
-    if (moves || one_of_forty(generator) == 0)
-      place[one_variable(generator)] = places(generator);
-    double* const values = &states[i * width + static_cast<std::size_t>(base.variable)];
-    for (std::size_t k = 0; k < static_cast<std::size_t>(base.variables); ++k)
-      values[k] = rests[static_cast<std::size_t>(base.variable) + k] + place[k] * kStep[k % kStep.size()];
-  }
-  return states;
-}
-
-TEST(RobotOnAMovingBase, HasTheProofsOfItsStatesWhileTheBaseRestsAndMoves)
-{
-  constexpr std::size_t kStates = repetitions(2000, 20000);
-  const ProvenScene proven = prove(testScene("arm_driven"));
-  ASSERT_GT(proven.lanes->model().base.frames, 0U);
-  const std::vector<double> states = withMovesOfTheBase(proven, kStates);
-  const std::vector<InstancePairs> colliding = collidingPairs(proven, states);
-  for (const lanes::NamedKernel& kernel : lanes::availableKernels())
-    EXPECT_GT(compare(proven, kernel, states, colliding), kStates / 4) << kernel.instructions;
 }
 
 const char* const kJointLimit = "<limit lower='-3' upper='3' effort='1' velocity='1'/>";
@@ -330,5 +303,60 @@ INSTANTIATE_TEST_SUITE_P(Robots, BoxesOfSelfPairs,
                                          TwoBoxes{"on_a_planar_joint", 3.0, false, 0.0, "planar"},
                                          TwoBoxes{"on_a_floating_joint", 3.0, false, 0.0, "floating"}),
                          [](const auto& tested) { return tested.param.name; });
+
+/// Random states in which the base rests for many states, moves to another place, and moves for a while.
+std::vector<double> withMovesOfTheBase(const ProvenScene& proven, std::size_t count)
+{
+  constexpr std::array<double, 4> kStep = {0.3, -0.2, 0.1, 0.4};  // metres or radians
+  const lanes::Base& base = proven.lanes->model().base;
+  std::mt19937_64 generator(kSeed + 5);
+  std::uniform_int_distribution<std::size_t> one_of_forty(0, 39);
+  std::uniform_int_distribution<int> places(-1, 1);
+  const std::vector<double> rests = proven.scene.scene->robot->defaultState();
+  std::vector<double> states = proven.scene.randomStates(count, kSeed + 6);
+  const std::size_t width = proven.lanes->model().width;
+  std::uniform_int_distribution<std::size_t> one_variable(0, static_cast<std::size_t>(base.variables) - 1);
+  std::array<int, lanes::kMostBaseVariables> place{};
+  bool moves = false;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    if (one_of_forty(generator) == 0)
+      moves = !moves;
+    if (moves || one_of_forty(generator) == 0)
+      place[one_variable(generator)] = places(generator);
+    double* const values = &states[i * width + static_cast<std::size_t>(base.variable)];
+    for (std::size_t k = 0; k < static_cast<std::size_t>(base.variables); ++k)
+      values[k] = rests[static_cast<std::size_t>(base.variable) + k] + place[k] * kStep[k % kStep.size()];
+  }
+  return states;
+}
+
+class MovingBases : public testing::TestWithParam<TestScene (*)()>
+{
+};
+
+TEST_P(MovingBases, ProofsHoldWhileTheBaseRestsAndMoves)
+{
+  constexpr std::size_t kStates = repetitions(2000, 20000);
+  const ProvenScene proven = prove(GetParam()());
+  ASSERT_GT(proven.lanes->model().base.frames, 0U);
+  const std::vector<double> states = withMovesOfTheBase(proven, kStates);
+  const std::vector<InstancePairs> colliding = collidingPairs(proven, states);
+  for (const lanes::NamedKernel& kernel : lanes::availableKernels())
+  {
+    std::mt19937_64 generator(kSeed + 7);
+    std::uniform_int_distribution<int> sizes(1, lanes::kLanes);
+    EXPECT_GT(compare(proven, kernel, states, colliding, [&] { return sizes(generator); }), kStates / 4)
+        << kernel.instructions;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Joints, MovingBases,
+                         testing::Values([] { return testScene("arm_driven"); },
+                                         [] {
+                                           return twoBoxes({"floating", 3.0, false, 0.0, "floating"});
+                                         }),
+                         [](const auto& tested)
+                         { return tested.index == 0 ? "planar" : "floating_after_a_fixed_link"; });
 }  // namespace
 }  // namespace gpu_planning_scene::core

@@ -33,7 +33,7 @@ class LaneChecker
   /// Work space of one thread.
   struct Scratch
   {
-    std::shared_ptr<const LaneScene> scene;  // numbers the pairs of the trials in `buffers` and of `records`
+    std::shared_ptr<const LaneScene> scene;  // of what `buffers` and `records` keep
     LaneBuffers buffers;
     std::vector<float> margins;
     std::vector<Eigen::Isometry3d> poses;  // of links

@@ -57,13 +57,6 @@ inline double wrapped(double angle)
   return angle - kTurn * __builtin_rint(angle / kTurn);
 }
 
-inline std::uint64_t bitsOf(double value)
-{
-  std::uint64_t bits;
-  __builtin_memcpy(&bits, &value, sizeof(bits));
-  return bits;
-}
-
 /// The value of a frame's joint in all lanes. Lanes beyond `count` repeat the first one.
 inline Floats jointValues(const Frame& frame, const Model& model, const double* states, int count)
 {
@@ -136,29 +129,30 @@ inline void relativePose(const Frame& frame, const Model& model, const double* s
   }
 }
 
-/// Whether all states have these values of the base's variables, bit for bit.
-inline bool haveBase(const Model& model, const double* states, int count, const double* values)
+/// Whether all states have these values of the base's variables. NaN equals nothing.
+inline bool allHaveBase(const Model& model, const double* states, int count, const double* values)
 {
   for (int lane = 0; lane < count; ++lane)
   {
     const double* const base = states + static_cast<unsigned>(lane) * model.width + model.base.variable;
-    std::uint64_t difference = 0;
+    int different = 0;
     for (int k = 0; k < model.base.variables; ++k)
-      difference |= bitsOf(base[k]) ^ bitsOf(values[k]);
-    if (difference != 0)
+      different |= base[k] == values[k] ? 0 : 1;
+    if (different != 0)
       return false;
   }
   return true;
 }
 
-/// Whether the frames of the base are set for these states. If not, remembers the states' base, if they all have the
-/// same: the caller must now compute its frames.
-inline bool isBaseSet(const Model& model, const double* states, int count, const Scratch& scratch)
+/// Whether the frames of the base are still those of these states. If not, the caller must compute them now, and they
+/// are kept for the next block if all states have the same base. They then hold in all lanes, because lanes beyond
+/// `count` repeat the first one.
+inline bool keepsBase(const Model& model, const double* states, int count, const Scratch& scratch)
 {
-  if (haveBase(model, states, count, scratch.base))
+  if (allHaveBase(model, states, count, scratch.base))
     return true;
   const double* const first = states + model.base.variable;
-  const bool is_same = haveBase(model, states, count, first);
+  const bool is_same = allHaveBase(model, states, count, first);
   for (int k = 0; k < model.base.variables; ++k)
     scratch.base[k] = is_same ? first[k] : __builtin_nan("");
   return false;
@@ -167,8 +161,8 @@ inline bool isBaseSet(const Model& model, const double* states, int count, const
 /// Forward kinematics of all lanes.
 inline void placeFrames(const Model& model, const double* states, int count, const Scratch& scratch)
 {
-  const bool is_base_set = model.base.frames > 0 && isBaseSet(model, states, count, scratch);
-  for (std::size_t i = is_base_set ? model.base.frames : 0; i < model.frames.count; ++i)
+  const bool is_base_kept = model.base.frames > 0 && keepsBase(model, states, count, scratch);
+  for (std::size_t i = is_base_kept ? model.base.frames : 0; i < model.frames.count; ++i)
   {
     const Frame& frame = model.frames[i];
     float* placed = group(scratch.frames, 12 * i);

@@ -41,8 +41,8 @@ struct Frame
 };
 
 /// The first frames of a robot whose first moving joint is planar or floating: those of this joint, and fixed ones
-/// before it. Often all states have the same values of its variables, for example those of a group. Then these frames
-/// are computed once and not in each block.
+/// before it. Often all states have the same values of its variables, for example if a group moves only the arm. Then
+/// these frames are computed once and not in each block.
 struct Base
 {
   std::uint32_t frames;  ///< their number; 0: the first moving joint is of another type
@@ -232,8 +232,8 @@ struct OpenPair
 /// Work space of one thread.
 struct Scratch
 {
-  float* frames;         ///< of each frame: 12 numbers in all lanes
-  double* base;          ///< kMostBaseVariables: those for which the frames of the base are set; NaN: they are not set
+  float* frames;         ///< of each frame: 12 numbers in all lanes; those of the base are kept between calls
+  double* base;          ///< kMostBaseVariables values, for which the frames of the base are set; NaN: they are not set
   float* centers;        ///< of each instance: the centre of its enclosing ball in all lanes; then of each cluster
   float* balls;          ///< of each instance: the coordinates of its outer and inner balls in one lane
   float* boxes;          ///< of each instance: its box in all lanes

@@ -27,7 +27,7 @@ void UploadedPoses::place(TexelBuffer& poses)
                   link_poses_(begin_ + i, links.data());
                   for (std::size_t k = 0; k < instances.size(); ++k)
                   {
-                    Eigen::Isometry3d pose = links[static_cast<std::size_t>(instances[k].link)] * instances[k].pose;
+                    Eigen::Isometry3d pose = placed(instances[k], links.data());
                     pose.translation() -= problem_.origin;
                     writePoseRows(pose, &rows[(k * count_ + i) * POSE_FLOATS]);
                   }
