@@ -76,16 +76,13 @@ bool mayBeDegrees(const RobotModel& robot, int variable, double value)
 std::optional<ValueOutsideLimits> findFarTranslation(const RobotModel& robot, const std::vector<int>& columns,
                                                      const double* rows, std::size_t count)
 {
-  for (std::size_t k = 0; k < columns.size(); ++k)
-  {
-    if (!isTranslation(robot, columns[k]))
-      continue;
-    for (std::size_t row = 0; row < count; ++row)
-      if (const double value = rows[row * columns.size() + k]; std::abs(value) > kExactRange)
+  for (std::size_t row = 0; row < count; ++row)
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (const double value = rows[row * columns.size() + k];
+          std::abs(value) > kExactRange && isTranslation(robot, columns[k]))
         return ValueOutsideLimits{row, "joint '" + robot.variables()[static_cast<std::size_t>(columns[k])].name +
                                            "' is " + number(value) + "; answers are exact only within " +
                                            number(kExactRange) + " m of the origin of the planning frame"};
-  }
   return std::nullopt;
 }
 }  // namespace

@@ -176,7 +176,7 @@ TEST_F(PointMotions, AreGivenUpWhenTheCallHasNoChecksLeft)
   const std::vector<double> starts = {0.0, 0.0, 0.0, -1.0};
   const std::vector<double> ends = {1.0, 0.0, 1.0, -1.0};
   for (const MotionRule rule : {MotionRule::Bound, MotionRule::Samples})
-    for (const MotionQuery query : {MotionQuery::Valid, MotionQuery::LastValid})
+    for (const MotionQuery query : {MotionQuery::Valid, MotionQuery::LastValid, MotionQuery::Extension})
     {
       MotionCheckerOptions options;
       options.rule = rule;
