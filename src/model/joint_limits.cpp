@@ -95,6 +95,9 @@ bool isOutsideLimits(const Variable& variable, double value)
 std::optional<ValueOutsideLimits> findManyTurns(const RobotModel& robot, const std::vector<int>& columns,
                                                 const double* rows, std::size_t count)
 {
+  const auto is_more_than_a_turn = [](double value) { return std::abs(value) > 2.0 * kPi; };
+  if (std::none_of(rows, rows + count * columns.size(), is_more_than_a_turn))
+    return std::nullopt;
   for (const Joint& joint : robot.joints())
   {
     const bool is_planar = joint.type == JointType::Planar;
@@ -102,8 +105,8 @@ std::optional<ValueOutsideLimits> findManyTurns(const RobotModel& robot, const s
       continue;
     const int angle = joint.first_variable + (is_planar ? 2 : 0);
     // A measured angle of a wheel or a wrist may be many turns, but it is seldom a whole number.
-    const auto may_be_degrees = [is_planar](double value)
-    { return std::abs(value) > 2.0 * kPi && (is_planar || std::round(value) == value); };
+    const auto may_be_degrees = [&](double value)
+    { return is_more_than_a_turn(value) && (is_planar || std::round(value) == value); };
     for (std::size_t k = 0; k < columns.size(); ++k)
       for (std::size_t row = 0; columns[k] == angle && row < count; ++row)
         if (const double value = rows[row * columns.size() + k]; may_be_degrees(value))

@@ -121,12 +121,13 @@ Eigen::Matrix4d Kinematics::relativePose(const Step& step, const double* state)
 
 void Kinematics::place(const Step& step, const double* state, Eigen::Isometry3d* poses, Eigen::Isometry3d& pose)
 {
-  const Eigen::Matrix4d relative = relativePose(step, state);
   // Eigen vectorises products of 4x4 matrices. The last row stays exactly 0 0 0 1.
   if (step.parent < 0)
-    pose.matrix() = relative;
+    pose.matrix() = relativePose(step, state);
+  else if (step.type == JointType::Fixed)
+    pose.matrix().noalias() = poses[step.parent].matrix() * step.constant;
   else
-    pose.matrix().noalias() = poses[step.parent].matrix() * relative;
+    pose.matrix().noalias() = poses[step.parent].matrix() * relativePose(step, state);
 }
 
 void Kinematics::linkPoses(const double* state, Eigen::Isometry3d* poses) const
