@@ -27,7 +27,7 @@ configure_and_build()
   export CCACHE_SLOPPINESS="${CCACHE_SLOPPINESS:-pch_defines,time_macros}"
   use_build_folder "$folder"
   if ! run cmake -S "$repository" -B "$folder" -G Ninja -DPYTHON_EXECUTABLE=/usr/bin/python3 \
-    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=40 -DCMAKE_LINK_DEPENDS_NO_SHARED=ON \
+    -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=20 -DCMAKE_LINK_DEPENDS_NO_SHARED=ON \
     -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" "$@" > "$log" 2>&1; then
     tail -40 "$log" >&2
     die "CMake could not configure the package (above; all of it in ${log#"$repository"/})"
