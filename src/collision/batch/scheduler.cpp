@@ -156,8 +156,8 @@ std::optional<Margins> Scheduler::marginsOf(const StateBatch& asked)
   return scene_.margins(*asked.around, asked.states, asked.count, asked.group);
 }
 
-/// The Core locks the scene when it is made and in endBatch. The check of a single state usually needs no other lock of
-/// the scene, because each lock takes a percent of its time.
+/// The Core locks the scene when it is made and in endBatch. Otherwise, the check of a single state usually locks
+/// nothing of the scene: each lock would take a percent of its time.
 BatchResult Scheduler::checkOnCaller(const StateBatch& asked)
 {
   CpuScene::Core core(scene_, asked.group);  // throws for an unknown group

@@ -94,7 +94,7 @@ inline Eigen::Isometry3d relativePose(const Eigen::Isometry3d& a, const Eigen::I
   return b_in_a;
 }
 
-/// Eigen's product of a pose and a point is not inlined.
+/// The product of a pose and a point. GCC does not inline Eigen's.
 inline Eigen::Vector3d transformed(const Eigen::Vector3d& point, const Eigen::Isometry3d& pose)
 {
   return pose.linear() * point + pose.translation();

@@ -25,7 +25,7 @@ struct ShapeInstance
   double padding = 0.0;    ///< metres; a robot and a world instance collide up to the sum of their paddings
 };
 
-/// The pose of a robot's instance in the planning frame. All checks use this product, so that a pair has the same
+/// The pose of a robot's instance in the planning frame. All exact checks use this product, so that a pair has the same
 /// verdict in each of them.
 inline Eigen::Isometry3d placed(const ShapeInstance& instance, const Eigen::Isometry3d* link_poses)
 {

@@ -171,7 +171,7 @@ TEST_F(PointMotions, AreRefusedWhereTheirSamplesDoNotProveThem)
 
 TEST_F(PointMotions, AreGivenUpWhenTheCallHasNoChecksLeft)
 {
-  // The first motion needs thousands of checks beside the wall; the second needs few.
+  // The first motion needs thousands of checks beside the wall to be proven; the second needs few.
   scene_->objects = {wall(0.5, 0.1, 0.51001, 1.0)};
   const std::vector<double> starts = {0.0, 0.0, 0.0, -1.0};
   const std::vector<double> ends = {1.0, 0.0, 1.0, -1.0};

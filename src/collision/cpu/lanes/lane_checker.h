@@ -33,7 +33,7 @@ class LaneChecker
   /// Work space of one thread.
   struct Scratch
   {
-    std::shared_ptr<const LaneScene> scene;  // of what `buffers` and `records` keep
+    std::shared_ptr<const LaneScene> scene;  // to which `buffers` and `records` belong
     LaneBuffers buffers;
     std::vector<float> margins;
     std::vector<Eigen::Isometry3d> poses;  // of links
