@@ -11,8 +11,8 @@ namespace gpu_planning_scene::core::lanes
 /// Proves verdicts for `count` states (1 to kLanes rows of doubles). `margins`: the distances that pairs must keep in
 /// addition, in metres, each in all lanes: of each instance from the world, then of each self pair; null: none. Every
 /// verdict other than Proof::None is certain. One instruction set may prove a verdict that another one leaves open.
-/// Thread-safe if each thread has its own scratch. Before a scratch is used with another model, its
-/// buffers must forget the one before: see LaneBuffers::forget.
+/// Thread-safe if each thread has its own scratch. Before a scratch is used with another model, its buffers must forget
+/// the one before: see LaneBuffers::forget.
 using Kernel = void (*)(const Model& model, const double* states, int count, const float* margins,
                         const Scratch& scratch, Block& block);
 

@@ -136,8 +136,7 @@ inline std::uint64_t bitsOf(double value)
   return bits;
 }
 
-/// Whether all states have these values of the base's variables, bit for bit: this takes half the time of comparing
-/// numbers.
+/// Whether all states have these values of the base's variables, bit for bit.
 inline bool allHaveBase(const Model& model, const double* states, int count, const double* values)
 {
   for (int lane = 0; lane < count; ++lane)
