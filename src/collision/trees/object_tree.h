@@ -45,22 +45,22 @@ bool ObjectTree::visitOverlapping(const Eigen::AlignedBox3d& bounds, std::vector
   const Eigen::Vector3d center = bounds.center();
   const Eigen::Vector3d half = 0.5 * bounds.sizes();
   stack.clear();
-  const auto pushIfNear = [&](std::uint32_t index)
+  const auto push_if_near = [&](std::uint32_t index)
   {
     const Node& node = tree_.nodes[index];
     // Not apart for infinite bounds: their centre is infinite or NaN, and their half size is infinite.
     if (!((centerOf(node) - center).cwiseAbs().array() > (halfOf(node) + half).array()).any())
       stack.push_back(index);
   };
-  pushIfNear(0);
+  push_if_near(0);
   while (!stack.empty())
   {
     const Node& node = tree_.nodes[stack.back()];
     stack.pop_back();
     if (node.count == 0)
     {
-      pushIfNear(node.first);
-      pushIfNear(node.first + 1);
+      push_if_near(node.first);
+      push_if_near(node.first + 1);
       continue;
     }
     const std::uint32_t object = tree_.order[node.first];
