@@ -352,7 +352,7 @@ double expectWithinMargins(const PlanningScene& scene, const CollisionProblem& p
   std::vector<PlacedPoints> placed;
   // The second row is that of all states between the parts. Its centre is the middle of the motion.
   std::vector<double> states = start;
-  around.spread = kParts / 2;
+  around.spread = 0.5 * kParts;
   around.centers = start;
   std::vector<double> state(start.size());
   for (int part = 0; part <= kParts; ++part)
