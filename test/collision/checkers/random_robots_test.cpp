@@ -533,6 +533,6 @@ TEST_P(ProofsOfRandomRobots, GiveTheVerdictsOfTheExactChecker)
 INSTANTIATE_TEST_SUITE_P(Seeds, ProofsOfRandomRobots,
                          testing::Range<std::uint64_t>(1, 1 + repetitions<std::uint64_t>(1, 60)));
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomRobots, testing::Range<std::uint64_t>(0, repetitions(2, 16)));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomRobots, testing::Range<std::uint64_t>(0, repetitions(3, 16)));
 }  // namespace
 }  // namespace gpu_planning_scene::core

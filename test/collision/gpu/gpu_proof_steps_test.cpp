@@ -151,10 +151,6 @@ TEST_P(ProofSteps, LeaveExactlyThePairsOpenWhoseEnclosingBallsAreNear)
   EXPECT_GT(result.self_pairs.size() + result.world_pairs.size(), kStatesOfStep / 10);
 }
 
-#ifdef GPS_SOAK
 INSTANTIATE_TEST_SUITE_P(Scenes, ProofSteps, testing::Values("kr5", "ur5_cage", "arm_boxes", "panda_boxes"));
-#else
-INSTANTIATE_TEST_SUITE_P(Scenes, ProofSteps, testing::Values("kr5", "arm_boxes", "panda_boxes"));
-#endif
 }  // namespace
 }  // namespace gpu_planning_scene::core
