@@ -11,6 +11,10 @@ namespace
 // An answer is written within this time, on a thread of roscpp.
 constexpr std::chrono::milliseconds kTimeToWrite{500};
 
+// A callback ends a wait, and stop() adds one for each thread. Hundreds of threads wait here, so they must not wake for
+// nothing: all at once, they delay a request by milliseconds.
+const ros::WallDuration kLongWait(3600.0);
+
 /// Wakes a thread that waits for a callback.
 class WakeUp : public ros::CallbackInterface
 {
@@ -31,7 +35,7 @@ Endpoints::Endpoints(const ros::NodeHandle& node, const ros::NodeHandle& own, st
         [this]
         {
           while (!closed_)
-            queue_.callOne(ros::WallDuration(0.5));
+            queue_.callOne(kLongWait);
         });
 }
 

@@ -10,6 +10,8 @@
 // vertices, and its growth would cost most of the checks, while the other one looks for its way out.
 // J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
 // Balanced trees: S. M. LaValle: Planning Algorithms. 2006, section 5.5.3.
+// Vertices at obstacles grow only towards near states: A. Yershova, L. Jaillet, T. Simeon, S. M. LaValle:
+// Dynamic-domain RRTs: Efficient exploration by controlling the sampling domain. ICRA 2005.
 namespace gpu_planning_scene::core
 {
 namespace
@@ -44,6 +46,13 @@ constexpr double kLeastProgress = 0.1;
 // Draws of a random state within the largest length. If that is little more than the distance of the roots, few states
 // are within it, and the last draw is taken.
 constexpr std::size_t kDrawsWithinLength = 128;
+
+// A vertex at an obstacle grows towards random states within so many ranges of it (the paper's radius R).
+constexpr double kDomainOfRanges = 5.0;
+
+// Draws of a random state whose nearest vertex may grow towards it. Then the last one is taken, because a draw among
+// many vertices takes as long as the check of a motion.
+constexpr std::size_t kDrawsWithinDomain = 12;
 
 BidirectionalTree::Side otherThan(BidirectionalTree::Side side)
 {
@@ -177,26 +186,38 @@ double BidirectionalTree::lengthThrough(const ompl::base::State* state) const
   return sum;
 }
 
+void BidirectionalTree::sample(double largest_length, ompl::base::State* state)
+{
+  sampler_->sampleUniform(state);
+  const bool is_limited = std::isfinite(largest_length);
+  for (std::size_t i = 1; is_limited && i < kDrawsWithinLength && lengthThrough(state) >= largest_length; ++i)
+    sampler_->sampleUniform(state);
+}
+
 BidirectionalTree::Attempt BidirectionalTree::randomBranch(const MotionValidator& validator, Side side,
                                                            const Limits& limits)
 {
-  const double range = limits.range;
   ompl::base::State* state = scratch();
-  sampler_->sampleUniform(state);
-  const bool is_limited = std::isfinite(limits.largest_length);
-  for (std::size_t i = 1; is_limited && i < kDrawsWithinLength && lengthThrough(state) >= limits.largest_length; ++i)
-    sampler_->sampleUniform(state);
-  const Vertex& from = trees_[side].nearest(state);
+  const Vertex* from = nullptr;
+  double distance = 0.0;
+  for (std::size_t i = 0; i < kDrawsWithinDomain; ++i)
+  {
+    sample(limits.largest_length, state);
+    from = &trees_[side].nearest(state);
+    distance = information_->distance(from->state, state);
+    if (!from->at_obstacle || distance <= kDomainOfRanges * limits.range)
+      break;
+  }
+  Attempt attempt{{side, from, nullptr, 1}, {}};
   if (validator.isConstrained())
   {
-    Attempt attempt{{side, &from, nullptr, 1}, {}};
-    addProjected(validator, state, false, range, 1, attempt);
+    addProjected(validator, state, false, limits.range, 1, attempt);
     return attempt;
   }
-  const double distance = information_->distance(from.state, state);
-  if (distance > range)
-    information_->getStateSpace()->interpolate(from.state, state, range / distance, state);
-  return {{side, &from, nullptr, 1}, {state}};
+  if (distance > limits.range)
+    information_->getStateSpace()->interpolate(from->state, state, limits.range / distance, state);
+  attempt.states.push_back(state);
+  return attempt;
 }
 
 /// Adds the valid first motions of an attempt to the tree. Returns the last vertex; `done` gets the number of valid
@@ -252,6 +273,8 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
     first += attempt.states.size();
     if (!connection.to && done != 0)
       connections_.push_back({otherThan(connection.side), nullptr, &tip, 1});
+    else if (!connection.to)
+      trees_[connection.side].setAtObstacle(tip);
     if (!connection.to || attempt.states.empty() || done < attempt.states.size())
       continue;
     if (attempt.states.back() == connection.to->state)

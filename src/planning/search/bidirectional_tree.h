@@ -94,6 +94,7 @@ class BidirectionalTree
   void addProjected(const MotionValidator& validator, const ompl::base::State* to, bool reaches, double range,
                     std::size_t max_pieces, Attempt& attempt);
   Attempt pieces(const MotionValidator& validator, Connection connection, double range);
+  void sample(double largest_length, ompl::base::State* state);
   Attempt randomBranch(const MotionValidator& validator, Side side, const Limits& limits);
   double lengthThrough(const ompl::base::State* state) const;
   const Vertex& addBranch(Side side, const Vertex& root, const std::vector<const ompl::base::State*>& states);

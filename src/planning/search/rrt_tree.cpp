@@ -29,7 +29,7 @@ RrtTree::~RrtTree()
 const RrtTree::Vertex& RrtTree::add(const ompl::base::State* state, const Vertex* parent)
 {
   vertices_.push_back(
-      std::make_unique<Vertex>(Vertex{information_->cloneState(state), parent, false, false, vertices_.size()}));
+      std::make_unique<Vertex>(Vertex{information_->cloneState(state), parent, false, false, false, vertices_.size()}));
   ++size_;
   nearest_.add(state);
   vertex_of_.push_back(vertices_.back().get());

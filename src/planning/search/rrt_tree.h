@@ -20,8 +20,9 @@ class RrtTree
     ompl::base::State* state = nullptr;
     const Vertex* parent = nullptr;  // null: a root
     bool removed = false;
-    bool proven = false;     // the motion from the parent is valid by the validator's own rule
-    std::size_t number = 0;  // in vertices()
+    bool proven = false;       // the motion from the parent is valid by the validator's own rule
+    bool at_obstacle = false;  // a motion from here towards a random state was not valid
+    std::size_t number = 0;    // in vertices()
 
     const Vertex& root() const;
   };
@@ -39,6 +40,8 @@ class RrtTree
   void remove(const std::vector<const Vertex*>& vertices);
   /// Sets Vertex::proven.
   void setProven(const Vertex& vertex) { vertices_[vertex.number]->proven = true; }
+  /// Sets Vertex::at_obstacle.
+  void setAtObstacle(const Vertex& vertex) { vertices_[vertex.number]->at_obstacle = true; }
   /// The vertex nearest to the state. The tree must not be empty.
   const Vertex& nearest(const ompl::base::State* state);
   /// All vertices, removed ones included; parents come before children.

@@ -149,6 +149,23 @@ TEST(BatchRrtConnect, KeepsTheTreesBalancedWhenOneOfThemIsInAPocket)
   EXPECT_LT(vertices[1], 5 * vertices[2]);
 }
 
+TEST(BatchRrtConnect, FillsAClosedRoomQuickly)
+{
+  // Most random states are outside, behind the walls.
+  const std::vector<Wall> room = {
+      {-1.4, -0.4, -1.3, 0.4}, {-0.7, -0.4, -0.6, 0.4}, {-1.4, -0.4, -0.6, -0.3}, {-1.4, 0.3, -0.6, 0.4}};
+  Planning planning(room, kLeft, {kRight});
+  planning.planner->setRange(0.05);
+  planning.planner->setMaxRounds(400);
+  ASSERT_EQ(planning.solve(), ob::PlannerStatus::APPROXIMATE_SOLUTION);
+  ob::PlannerData data(planning.robot.information());
+  planning.planner->getPlannerData(data);
+  std::size_t inside = 0;
+  for (unsigned int i = 0; i < data.numVertices(); ++i)
+    inside += data.getVertex(i).getTag() == 1 ? 1 : 0;
+  EXPECT_GT(inside, 1000);
+}
+
 /// Samples half a metre apart almost never hit a wall of a millimetre. The planner must remove branches that have grown
 /// through the wall.
 TEST(BatchRrtConnect, DoesNotJumpAThinWallUnderTheBoundAndBySamplesDoes)
