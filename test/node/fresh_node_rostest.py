@@ -8,6 +8,7 @@ import sys
 import tempfile
 import time
 import unittest
+import xmlrpc.client
 
 import numpy as np
 import rospy
@@ -59,6 +60,25 @@ class FreshNode(unittest.TestCase):
                 text = file.read()
         self.assertIn(wanted, text)
         self.assertIsNone(self.node.poll(), "the node has ended")
+
+    def test_threads_that_wait_take_no_time_from_the_others(self):
+        uri = rospy.get_master().lookupNode("/planning_scene")[2]
+        tasks = "/proc/%d/task" % xmlrpc.client.ServerProxy(uri).getPid("/test")[2]
+
+        def waits():
+            """How often the node's threads have waited since they began."""
+            count = 0
+            for task in os.listdir(tasks):
+                with open(os.path.join(tasks, task, "status"), encoding="utf-8") as status:
+                    count += sum(int(line.split()[1]) for line in status if line.startswith("voluntary_ctxt_switches"))
+            return count
+
+        before = waits()
+        time.sleep(2.0)
+        # Each of 440 threads waits for a request. If each looked twice a second whether one has come, it would be 1760.
+        self.assertLess(waits() - before, 880)
+        policies = [os.sched_getscheduler(int(task)) for task in os.listdir(tasks)]
+        self.assertEqual(1, policies.count(os.SCHED_BATCH), "roscpp's poll thread")
 
     def output_of(self, document, start):
         """Returns the output of the program whose text contains `start`."""
