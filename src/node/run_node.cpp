@@ -48,19 +48,19 @@ void useOneHeap()
 
 /// roscpp has one thread for all sockets. It wakes when another thread writes an answer. If it takes that thread's core
 /// at this moment, it spins until the end of its time slice: the socket is ready, and only the other thread may write.
-/// Of answers that follow each other, one in fifty took 4 ms instead of 0.2. A thread of the policy SCHED_BATCH takes no
-/// core from a running thread (sched(7)).
+/// Of answers that follow each other, one in fifty took 3 to 4 ms instead of 0.2. When a thread of the policy SCHED_BATCH
+/// wakes, Linux lets the thread go on that runs on the core.
 void runPollThreadAsBatch()
 {
   ros::PollManager::instance()->addPollThreadListener(
       []
       {
-        static bool is_done = false;  // the listener is called on each event, always on the same thread
+        static bool is_done = false;  // the listener is called before each poll, on the same thread
         if (std::exchange(is_done, true) || sched_getscheduler(0) != SCHED_OTHER)
           return;
         const sched_param no_priority{};
         if (sched_setscheduler(0, SCHED_BATCH, &no_priority) != 0)
-          ROS_WARN("cannot run roscpp's poll thread as a batch thread: %s; some answers may take 4 ms longer",
+          ROS_WARN("cannot run roscpp's poll thread as a batch thread: %s; some answers will take 4 ms longer",
                    std::strerror(errno));
       });
 }

@@ -11,9 +11,10 @@ namespace
 // An answer is written within this time, on a thread of roscpp.
 constexpr std::chrono::milliseconds kTimeToWrite{500};
 
-// A callback ends a wait, and stop() adds one for each thread. Hundreds of threads wait here, so they must not wake for
-// nothing: all at once, they delay a request by milliseconds.
-const ros::WallDuration kLongWait(3600.0);
+// A callback ends a wait, and stop() adds one for each thread. Hundreds of threads wait here. If they all woke for
+// nothing twice a second, they would delay a request by milliseconds. The wait has an end because glibc may lose a
+// wake-up of a condition variable with many waiting threads (glibc bug 25847).
+const ros::WallDuration kLongWait(30.0);
 
 /// Wakes a thread that waits for a callback.
 class WakeUp : public ros::CallbackInterface

@@ -29,8 +29,8 @@ constexpr std::size_t kVerticesPerBranch = 8;
 // Eight states take hardly more time than one, and in a narrow place most branches collide at their ends.
 constexpr std::size_t kLeastBranches = 8;
 
-// In a large tree, the search for the nearest vertex takes time, so the clock is read after this many branches.
-constexpr std::size_t kBranchesBetweenStops = 16;
+// In a large tree, the search for the nearest vertex takes time, so the clock is read after this many searches.
+constexpr std::size_t kNearestBetweenStops = 32;
 
 // Between two roots, a free straight line saves the most work. There are few of these lines, so each gets many segments
 // at once.
@@ -47,12 +47,12 @@ constexpr double kLeastProgress = 0.1;
 // are within it, and the last draw is taken.
 constexpr std::size_t kDrawsWithinLength = 128;
 
-// A vertex at an obstacle grows towards random states within so many ranges of it (the paper's radius R).
+// A vertex at an obstacle grows towards random states within so many ranges of it. The paper's radius R.
 constexpr double kDomainOfRanges = 5.0;
 
-// Draws of a random state whose nearest vertex may grow towards it. Then the last one is taken, because a draw among
-// many vertices takes as long as the check of a motion.
-constexpr std::size_t kDrawsWithinDomain = 12;
+// Random states for which the nearest vertex is searched, until there is one towards which this vertex may grow. Then
+// the last one is taken, however far it is: among many vertices, a search takes as long as the check of a motion.
+constexpr std::size_t kNearestOfBranch = 12;
 
 BidirectionalTree::Side otherThan(BidirectionalTree::Side side)
 {
@@ -186,6 +186,7 @@ double BidirectionalTree::lengthThrough(const ompl::base::State* state) const
   return sum;
 }
 
+/// Draws a random state, if possible one through which a path can be shorter than the largest length.
 void BidirectionalTree::sample(double largest_length, ompl::base::State* state)
 {
   sampler_->sampleUniform(state);
@@ -194,16 +195,20 @@ void BidirectionalTree::sample(double largest_length, ompl::base::State* state)
     sampler_->sampleUniform(state);
 }
 
+/// A motion from the tree towards a random state. `searches` grows by the number of searches for the nearest vertex.
 BidirectionalTree::Attempt BidirectionalTree::randomBranch(const MotionValidator& validator, Side side,
-                                                           const Limits& limits)
+                                                           const Limits& limits, std::size_t& searches)
 {
   ompl::base::State* state = scratch();
   const Vertex* from = nullptr;
   double distance = 0.0;
-  for (std::size_t i = 0; i < kDrawsWithinDomain; ++i)
+  // States within the largest length are near enough.
+  const std::size_t tries = std::isfinite(limits.largest_length) ? 1 : kNearestOfBranch;
+  for (std::size_t i = 0; i < tries; ++i)
   {
     sample(limits.largest_length, state);
     from = &trees_[side].nearest(state);
+    ++searches;
     distance = information_->distance(from->state, state);
     if (!from->at_obstacle || distance <= kDomainOfRanges * limits.range)
       break;
@@ -240,11 +245,13 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
   for (const Connection& connection : connections_)
     attempts.push_back(pieces(validator, connection, limits.range));
   const std::size_t branches = branchesOfRound(limits.branches);
+  std::size_t searches = 0;
   for (std::size_t i = 0; i < branches; ++i)
   {
-    if (i % kBranchesBetweenStops == kBranchesBetweenStops - 1 && ptc)
+    if (searches >= kNearestBetweenStops && ptc)
       break;
-    attempts.push_back(randomBranch(validator, side, limits));
+    searches %= kNearestBetweenStops;
+    attempts.push_back(randomBranch(validator, side, limits, searches));
   }
 
   // Each begins at a vertex of a tree or at the end of the motion before it, as validateExtensions requires.
@@ -273,7 +280,7 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
     first += attempt.states.size();
     if (!connection.to && done != 0)
       connections_.push_back({otherThan(connection.side), nullptr, &tip, 1});
-    else if (!connection.to)
+    else if (!connection.to && !validator.isConstrained())  // a projection can fail far from obstacles
       trees_[connection.side].setAtObstacle(tip);
     if (!connection.to || attempt.states.empty() || done < attempt.states.size())
       continue;

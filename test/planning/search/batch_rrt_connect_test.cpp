@@ -149,7 +149,7 @@ TEST(BatchRrtConnect, KeepsTheTreesBalancedWhenOneOfThemIsInAPocket)
   EXPECT_LT(vertices[1], 5 * vertices[2]);
 }
 
-TEST(BatchRrtConnect, FillsAClosedRoomQuickly)
+TEST(BatchRrtConnect, FillsAClosedRoomInFewRounds)
 {
   // Most random states are outside, behind the walls.
   const std::vector<Wall> room = {
@@ -163,7 +163,8 @@ TEST(BatchRrtConnect, FillsAClosedRoomQuickly)
   std::size_t inside = 0;
   for (unsigned int i = 0; i < data.numVertices(); ++i)
     inside += data.getVertex(i).getTag() == 1 ? 1 : 0;
-  EXPECT_GT(inside, 1000);
+  // 2,050 to 2,500 in eight runs, and 90 to 113 if vertices at obstacles grow towards all random states.
+  EXPECT_GT(inside, 1000U);
 }
 
 /// Samples half a metre apart almost never hit a wall of a millimetre. The planner must remove branches that have grown
