@@ -48,8 +48,8 @@ void useOneHeap()
 
 /// roscpp has one thread for all sockets. It wakes when another thread writes an answer. If it takes that thread's core
 /// at this moment, it spins until the end of its time slice: the socket is ready, and only the other thread may write.
-/// Of answers that follow each other, one in fifty took 3 to 4 ms instead of 0.2. When a thread of the policy
-/// SCHED_BATCH wakes, Linux lets the thread go on that runs on the core.
+/// Of answers that follow each other, one in fifty took 3 to 4 ms instead of 0.2. Linux does not let a thread of the
+/// policy SCHED_BATCH take the core of a running thread when it wakes.
 void runPollThreadAsBatch()
 {
   ros::PollManager::instance()->addPollThreadListener(
@@ -60,7 +60,7 @@ void runPollThreadAsBatch()
           return;
         const sched_param no_priority{};
         if (sched_setscheduler(0, SCHED_BATCH, &no_priority) != 0)
-          ROS_WARN("cannot run roscpp's poll thread as a batch thread: %s; some answers will take 4 ms longer",
+          ROS_WARN("cannot run roscpp's poll thread as a batch thread: %s; some answers take 4 ms longer",
                    std::strerror(errno));
       });
 }

@@ -10,7 +10,7 @@
 // vertices, and its growth would cost most of the checks, while the other one looks for its way out.
 // J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
 // Balanced trees: S. M. LaValle: Planning Algorithms. 2006, section 5.5.3.
-// Vertices at obstacles grow only towards near states: A. Yershova, L. Jaillet, T. Simeon, S. M. LaValle:
+// Vertices at obstacles grow mostly towards near states: A. Yershova, L. Jaillet, T. Simeon, S. M. LaValle:
 // Dynamic-domain RRTs: Efficient exploration by controlling the sampling domain. ICRA 2005.
 namespace gpu_planning_scene::core
 {
@@ -29,8 +29,9 @@ constexpr std::size_t kVerticesPerBranch = 8;
 // Eight states take hardly more time than one, and in a narrow place most branches collide at their ends.
 constexpr std::size_t kLeastBranches = 8;
 
-// In a large tree, the search for the nearest vertex takes time, so the clock is read after this many searches.
-constexpr std::size_t kNearestBetweenStops = 32;
+// In a large tree, the search for the nearest vertex takes time, so the clock is read after the vertices nearest to
+// this many random states.
+constexpr std::size_t kDrawsBetweenStops = 32;
 
 // Between two roots, a free straight line saves the most work. There are few of these lines, so each gets many segments
 // at once.
@@ -50,9 +51,9 @@ constexpr std::size_t kDrawsWithinLength = 128;
 // A vertex at an obstacle grows towards random states within so many ranges of it. The paper's radius R.
 constexpr double kDomainOfRanges = 5.0;
 
-// Random states for which the nearest vertex is searched, until there is one towards which this vertex may grow. Then
-// the last one is taken, however far it is: among many vertices, a search takes as long as the check of a motion.
-constexpr std::size_t kNearestOfBranch = 12;
+// Draws of a random state, until its nearest vertex may grow towards it. The last one is taken, however far it is:
+// among many vertices, the search for the nearest one takes as long as the check of a motion.
+constexpr std::size_t kDrawsWithinDomain = 12;
 
 BidirectionalTree::Side otherThan(BidirectionalTree::Side side)
 {
@@ -195,20 +196,21 @@ void BidirectionalTree::sample(double largest_length, ompl::base::State* state)
     sampler_->sampleUniform(state);
 }
 
-/// A motion from the tree towards a random state. `searches` grows by the number of searches for the nearest vertex.
+/// A motion from the tree towards a random state. `draws` grows by the number of states whose nearest vertex was
+/// searched.
 BidirectionalTree::Attempt BidirectionalTree::randomBranch(const MotionValidator& validator, Side side,
-                                                           const Limits& limits, std::size_t& searches)
+                                                           const Limits& limits, std::size_t& draws)
 {
   ompl::base::State* state = scratch();
   const Vertex* from = nullptr;
   double distance = 0.0;
-  // States within the largest length are near enough.
-  const std::size_t tries = std::isfinite(limits.largest_length) ? 1 : kNearestOfBranch;
+  // Within a largest length, the states are near already: more draws made no path shorter.
+  const std::size_t tries = std::isfinite(limits.largest_length) ? 1 : kDrawsWithinDomain;
   for (std::size_t i = 0; i < tries; ++i)
   {
     sample(limits.largest_length, state);
     from = &trees_[side].nearest(state);
-    ++searches;
+    ++draws;
     distance = information_->distance(from->state, state);
     if (!from->at_obstacle || distance <= kDomainOfRanges * limits.range)
       break;
@@ -245,13 +247,16 @@ std::vector<BidirectionalTree::Meeting> BidirectionalTree::grow(const MotionVali
   for (const Connection& connection : connections_)
     attempts.push_back(pieces(validator, connection, limits.range));
   const std::size_t branches = branchesOfRound(limits.branches);
-  std::size_t searches = 0;
+  std::size_t draws = 0;  // since the clock was read
   for (std::size_t i = 0; i < branches; ++i)
   {
-    if (searches >= kNearestBetweenStops && ptc)
-      break;
-    searches %= kNearestBetweenStops;
-    attempts.push_back(randomBranch(validator, side, limits, searches));
+    if (draws >= kDrawsBetweenStops)
+    {
+      if (ptc)
+        break;
+      draws = 0;
+    }
+    attempts.push_back(randomBranch(validator, side, limits, draws));
   }
 
   // Each begins at a vertex of a tree or at the end of the motion before it, as validateExtensions requires.

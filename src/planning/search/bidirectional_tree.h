@@ -95,7 +95,7 @@ class BidirectionalTree
                     std::size_t max_pieces, Attempt& attempt);
   Attempt pieces(const MotionValidator& validator, Connection connection, double range);
   void sample(double largest_length, ompl::base::State* state);
-  Attempt randomBranch(const MotionValidator& validator, Side side, const Limits& limits, std::size_t& searches);
+  Attempt randomBranch(const MotionValidator& validator, Side side, const Limits& limits, std::size_t& draws);
   double lengthThrough(const ompl::base::State* state) const;
   const Vertex& addBranch(Side side, const Vertex& root, const std::vector<const ompl::base::State*>& states);
   const Vertex& advance(const Attempt& attempt, const std::uint8_t* valid, std::size_t& done);
