@@ -4,10 +4,10 @@
 #include <atomic>
 #include <cstddef>
 #include <exception>
-#include <thread>
-#include <vector>
+#include <list>
 
 #include "base/available_cores.h"
+#include "base/helper_thread.h"
 
 namespace gpu_planning_scene::core
 {
@@ -32,12 +32,12 @@ void parallelFor(std::size_t count, std::size_t per_chunk, const Work& work)
     }
     catch (...)
     {
-      // An exception that leaves the function of a std::thread would end the process.
+      // An exception that leaves the function of a thread would end the process.
       if (!has_failed.exchange(true))
         error = std::current_exception();
     }
   };
-  std::vector<std::thread> helpers;
+  std::list<HelperThread> helpers;
   try
   {
     for (std::size_t i = 1; i < std::min(availableCores(), chunks); ++i)
@@ -45,11 +45,10 @@ void parallelFor(std::size_t count, std::size_t per_chunk, const Work& work)
   }
   catch (const std::exception&)
   {
-    // No thread, or no memory for one. The started threads go on: destroying a running std::thread ends the process.
+    // No thread, or no memory for one. The started threads do all the work.
   }
   run();
-  for (std::thread& helper : helpers)
-    helper.join();
+  helpers.clear();
   if (error)
     std::rethrow_exception(error);
 }

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <list>
 #include <mutex>
 #include <shared_mutex>
-#include <thread>
 #include <utility>
 
 #include "base/available_cores.h"
 #include "base/finally.h"
+#include "base/helper_thread.h"
 #include "base/seconds_since.h"
 #include "collision/batch/device_rows.h"
 #include "collision/problem/batch_size.h"
@@ -251,7 +252,7 @@ void Scheduler::runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devi
   };
   for (bool is_first = true; !batch.isClosed() && !batch.isComplete(); is_first = false)
   {
-    std::vector<std::thread> helpers;
+    std::list<HelperThread> helpers;
     try
     {
       const std::size_t wanted = std::min(availableCores(), batch.availableForCores() / kStatesPerCore);
@@ -269,8 +270,7 @@ void Scheduler::runCores(Batch& batch, const StateBatch& asked, DeviceJoin& devi
             devices.invite();
           work(true);
         });
-    for (std::thread& helper : helpers)
-      helper.join();
+    helpers.clear();
     batch.waitForCores(Clock::now() + kTick);
     if (!batch.isClosed())
       or_fail(tick);

@@ -8,7 +8,6 @@ void OtherSearches::start(std::size_t count, const Round& round)
 {
   paths_.resize(count);
   errors_.resize(count);
-  threads_.reserve(count);
   const auto run = [this, round](std::size_t search)
   {
     try
@@ -25,7 +24,7 @@ void OtherSearches::start(std::size_t count, const Round& round)
   try
   {
     for (std::size_t search = 1; search < count; ++search)
-      threads_.emplace_back(run, search);
+      threads_.emplace_back([run, search] { run(search); });
   }
   catch (const std::exception&)
   {
@@ -36,8 +35,6 @@ void OtherSearches::start(std::size_t count, const Round& round)
 void OtherSearches::end()
 {
   has_ended_ = true;
-  for (std::thread& thread : threads_)
-    thread.join();
   threads_.clear();
 }
 

@@ -4,11 +4,12 @@
 #include <cstddef>
 #include <exception>
 #include <functional>
-#include <thread>
+#include <list>
 #include <vector>
 
 #include <ompl/base/PlannerTerminationCondition.h>
 
+#include "base/helper_thread.h"
 #include "planning/search/rrt_search.h"
 
 namespace gpu_planning_scene::core
@@ -48,6 +49,6 @@ class OtherSearches
   ompl::base::PlannerTerminationCondition end_;
   std::vector<RrtSearch::Path> paths_;      // by search
   std::vector<std::exception_ptr> errors_;  // by search
-  std::vector<std::thread> threads_;
+  std::list<HelperThread> threads_;
 };
 }  // namespace gpu_planning_scene::core
