@@ -22,9 +22,10 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-// Checking this many states takes less time than starting a thread.
+// Checking this many states takes less time than starting a thread. A state with margins takes some ten times as long.
 constexpr std::size_t kFewStates = 256;
-// A core is started for each such number of states, if there are more than kFewStates.
+constexpr std::size_t kFewStatesWithMargins = 64;
+// A core is started for each such number of states, if there are more than a few.
 constexpr std::size_t kStatesPerCore = 32;
 // The caller hears of the progress this often, and devices may join this often.
 constexpr std::chrono::milliseconds kTick{20};
@@ -140,8 +141,9 @@ BatchResult Scheduler::check(const StateBatch& asked)
   const std::shared_lock<ChangeGate> lock(gate_);
   const auto start = Clock::now();
   const bool by_device = devices_.isDeviceOnly() && !devices_.isEmpty() && asked.count != 0;
+  const std::size_t few = asked.around ? kFewStatesWithMargins : kFewStates;
   const bool on_caller =
-      (asked.count <= kFewStates && !by_device) || scene_.problem(asked.group)->always_colliding.has_value();
+      (asked.count <= few && !by_device) || scene_.problem(asked.group)->always_colliding.has_value();
   BatchResult result = on_caller ? checkOnCaller(asked) : checkTogether(asked);
   result.revision = scene_.scene()->revision;
   result.seconds = secondsSince(start);

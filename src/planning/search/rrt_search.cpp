@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <limits>
 #include <utility>
 
+#include "base/finally.h"
 #include "planning/search/known_routes.h"
 
 // The trees grow by motions that are checked coarsely. The search proves only the motions of a path that it has found.
@@ -18,6 +20,9 @@ namespace
 {
 namespace ob = ompl::base;
 using ompl::geometric::PathGeometric;
+
+// A search that waits for the proof of another one asks this often whether it is to end.
+constexpr std::chrono::milliseconds kLookAtEnd{1};
 
 /// The vertices from the root to `vertex`.
 std::vector<const RrtTree::Vertex*> branchTo(const RrtTree::Vertex* vertex)
@@ -40,7 +45,10 @@ RrtSearch::Path pathOf(const ob::SpaceInformationPtr& information, const Bidirec
 }
 }  // namespace
 
-RrtSearch::RrtSearch(const ob::Planner& planner) : information_(planner.getSpaceInformation()), trees_(planner) {}
+RrtSearch::RrtSearch(const ob::Planner& planner, Turn& proofs)
+  : information_(planner.getSpaceInformation()), proofs_(proofs), trees_(planner)
+{
+}
 
 void RrtSearch::addCandidate(const ob::GoalSampleableRegion& goal, const BidirectionalTree::Meeting& meeting)
 {
@@ -89,6 +97,10 @@ double RrtSearch::distanceToGoal() const
 bool RrtSearch::isProven(const MotionValidator& validator, const BidirectionalTree::Meeting& meeting,
                          const ob::PlannerTerminationCondition& ptc)
 {
+  while (!proofs_.takeFor(kLookAtEnd))
+    if (ptc)
+      return false;
+  const Finally give_turn([this] { proofs_.give(); });
   std::vector<MotionValidator::Motion> motions;
   std::vector<std::pair<BidirectionalTree::Side, const Vertex*>> ends;  // the later vertex of each motion within a tree
   const auto add = [&](BidirectionalTree::Side side, const Vertex* vertex)
@@ -161,6 +173,9 @@ RrtSearch::Path RrtSearch::take(const std::vector<BidirectionalTree::Meeting>& m
 RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
                                     const BidirectionalTree::Limits& limits, const ob::PlannerTerminationCondition& ptc)
 {
+  while (!proofs_.waitFor(kLookAtEnd))
+    if (ptc)
+      return nullptr;
   return take(trees_.grow(validator, limits, ptc), validator, goal, ptc);
 }
 

@@ -8,19 +8,22 @@
 #include <ompl/base/goals/GoalSampleableRegion.h>
 #include <ompl/geometric/PathGeometric.h>
 
+#include "base/turn.h"
 #include "gpu_planning_scene/planning/motion_validator.h"
 #include "planning/search/bidirectional_tree.h"
 
 namespace gpu_planning_scene::core
 {
 /// The search of BatchRrtConnect. Two trees grow by motions that are checked coarsely. If they meet, there is a path
-/// through the meeting; its motions are proven by the validator's own rule. Not thread-safe.
+/// through the meeting; its motions are proven by the validator's own rule. While a search proves a path, the searches that
+/// share its turn wait: the cores do the proof, which mostly succeeds, instead of rounds. Not thread-safe.
 class RrtSearch
 {
  public:
   using Path = std::shared_ptr<ompl::geometric::PathGeometric>;
 
-  explicit RrtSearch(const ompl::base::Planner& planner);
+  /// `proofs`: the turn of the searches that run side by side. It must outlive this object.
+  RrtSearch(const ompl::base::Planner& planner, Turn& proofs);
 
   BidirectionalTree& trees() { return trees_; }
 
@@ -65,6 +68,7 @@ class RrtSearch
   const Vertex* closest() const;
 
   ompl::base::SpaceInformationPtr information_;
+  Turn& proofs_;
   BidirectionalTree trees_;
   std::vector<Candidate> candidates_;
   /// Meeting of the last solution. Its goal vertex is null if its start vertex is in the goal region.

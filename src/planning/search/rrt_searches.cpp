@@ -17,14 +17,14 @@ constexpr std::size_t kRoundsAlone = 6;
 
 RrtSearches::RrtSearches(const ob::Planner& planner) : planner_(planner)
 {
-  searches_.push_back(std::make_unique<RrtSearch>(planner));
+  searches_.push_back(std::make_unique<RrtSearch>(planner, proofs_));
 }
 
 void RrtSearches::addSearches(std::size_t count)
 {
   while (searches_.size() < count)
   {
-    searches_.push_back(std::make_unique<RrtSearch>(planner_));
+    searches_.push_back(std::make_unique<RrtSearch>(planner_, proofs_));
     for (const BidirectionalTree::Side side : {BidirectionalTree::Start, BidirectionalTree::Goal})
       for (const ob::State* root : first().trees().roots(side))
         searches_.back()->trees().addRoot(side, root);

@@ -54,6 +54,7 @@ class RrtSearches
   void addSearches(std::size_t count);
 
   const ompl::base::Planner& planner_;
+  Turn proofs_;  // one path is proven at a time
   std::vector<std::unique_ptr<RrtSearch>> searches_;
   std::size_t solver_ = 0;  // index of the search that found the last path
 };

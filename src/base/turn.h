@@ -20,11 +20,17 @@ class Turn
     is_taken_ = true;
     return true;
   }
+  /// Waits until no thread has the turn, at most for this time. Returns whether no thread had it.
+  bool waitFor(std::chrono::milliseconds time)
+  {
+    std::unique_lock<std::mutex> lock(mutex_);
+    return free_.wait_for(lock, time, [this] { return !is_taken_; });
+  }
   void give()
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_taken_ = false;
-    free_.notify_one();
+    free_.notify_all();
   }
 
  private:
