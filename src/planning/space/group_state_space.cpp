@@ -18,6 +18,7 @@
 #include "gpu_planning_scene/error.h"
 #include "gpu_planning_scene/interpolation.h"
 #include "planning/space/group_space.h"
+#include "planning/space/uniform_sampler.h"
 
 // The joints with limits share one space; each other joint has a space of its own. The default projection has the first
 // joints with limits, because joints near the root move the robot the most. Planners with a grid of projections use it
@@ -249,6 +250,7 @@ GroupStateSpace::GroupStateSpace(std::shared_ptr<const RobotModel> robot, const 
       const Variable& variable = robot_->variables()[joint->first_variable];
       limits->addDimension(joint->name, variable.lower, variable.upper);
     }
+  limits->setStateSamplerAllocator([](const ob::StateSpace* space) { return std::make_shared<UniformSampler>(space); });
   if (limits->getDimension() > 0)
     addSubspace(limits, kWeight);
   for (const Joint* joint : joints)
