@@ -1,6 +1,7 @@
 // Several searches side by side (also with the thread sanitizer): the first solution ends them all, and an exception of
 // one of them reaches the caller.
 
+#include <atomic>
 #include <chrono>
 #include <stdexcept>
 #include <thread>
@@ -82,11 +83,89 @@ TEST_F(RrtSearchesTest, EndWithTheTimeOrTheRoundsOfTheFirst)
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
+TEST_F(RrtSearchesTest, GrowNoTreeWhileAnotherSearchProvesItsPathAndEndInTime)
+{
+  robot_ = std::make_unique<PointRobot>(kBarrier);
+  problem_ = robot_->problem({-1.0, 0.0}, {{1.0, 0.0}});
+  planner_ = std::make_unique<BatchRrtConnect>(robot_->information());
+  Turn proofs;
+  RrtSearch search(*planner_, proofs);
+  const ob::ScopedState<> end = robot_->at({1.0, 0.0});
+  search.trees().addRoot(BidirectionalTree::Start, problem_->getStartState(0));
+  search.trees().addRoot(BidirectionalTree::Goal, end.get());
+  const auto vertices = [&] { return search.trees().tree(BidirectionalTree::Start).size(); };
+  const auto run_rounds = [&](double seconds)
+  {
+    const ob::PlannerTerminationCondition ptc = ob::timedPlannerTerminationCondition(seconds);
+    for (int i = 0; i < 8; ++i)
+      search.runRound(robot_->validator(), *problem_->getGoal()->as<ob::GoalSampleableRegion>(), {64, 0.2, 1e9}, ptc);
+  };
+  ASSERT_TRUE(proofs.takeFor(std::chrono::milliseconds(0)));
+  run_rounds(0.05);
+  EXPECT_EQ(vertices(), 1U);
+  proofs.give();
+  run_rounds(60.0);
+  EXPECT_GT(vertices(), 1U);
+}
+
 TEST_F(RrtSearchesTest, AreOneSearchIfTheirNumberIsOne)
 {
   rounds_of_first_ = 0;
   EXPECT_FALSE(run(kBarrier, 1, 20, ob::timedPlannerTerminationCondition(60.0)));
   EXPECT_EQ(rounds_of_first_, 20U);
+}
+
+/// Makes proofs slow, and counts the checks that begin meanwhile.
+class SlowProofs : public StateChecker
+{
+ public:
+  explicit SlowProofs(std::shared_ptr<StateChecker> checker) : checker_(std::move(checker)) {}
+  void setScene(std::shared_ptr<const PlanningScene> scene) override { checker_->setScene(std::move(scene)); }
+  BatchResult checkBatch(const StateBatch& batch) override
+  {
+    if (!batch.around)
+    {
+      checks_beside_proofs += proofs_ != 0 ? 1 : 0;
+      return checker_->checkBatch(batch);
+    }
+    ++proofs;
+    proofs_beside_proofs += proofs_++ != 0 ? 1 : 0;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    BatchResult result = checker_->checkBatch(batch);
+    --proofs_;
+    return result;
+  }
+  SceneReport report(const std::string& group) override { return checker_->report(group); }
+  std::string deviceName() const override { return checker_->deviceName(); }
+  bool checksSideBySide() const override { return true; }
+
+  std::atomic<int> proofs{0};
+  std::atomic<int> proofs_beside_proofs{0};
+  std::atomic<int> checks_beside_proofs{0};
+
+ private:
+  std::atomic<int> proofs_{0};  // that are in progress
+  std::shared_ptr<StateChecker> checker_;
+};
+
+TEST(ParallelBatchRrtConnect, ProvesOnePathAtATimeWhileItsOtherSearchesWait)
+{
+  MotionCheckerOptions options;
+  options.rule = MotionRule::Bound;
+  const PointRobot robot(kZigzag, options);
+  const auto checker = std::make_shared<SlowProofs>(robot.checker());
+  robot.information()->setMotionValidator(
+      std::make_shared<MotionValidator>(robot.information(), robot.scene(), checker, options));
+  robot.information()->setup();
+  BatchRrtConnect planner(robot.information());
+  planner.setSearches(4);
+  planner.setProblemDefinition(robot.problem({-1.0, 0.0}, {{1.0, 0.0}}));
+  planner.setup();
+  EXPECT_TRUE(planner.Planner::solve(60.0));
+  EXPECT_GT(checker->proofs, 0);
+  EXPECT_EQ(checker->proofs_beside_proofs, 0);
+  // Each of the other searches ends the round that it has begun.
+  EXPECT_LE(checker->checks_beside_proofs, 3 * 8 * checker->proofs);
 }
 
 /// Its checks fail on all threads but the one that made it.

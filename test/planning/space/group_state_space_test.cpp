@@ -1,5 +1,7 @@
 // The state space of a group contains the joints that can be planned for, and interpolates as interpolation.h does.
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <stdexcept>
@@ -10,6 +12,7 @@
 #include <ompl/base/spaces/RealVectorStateSpace.h>
 #include <ompl/base/spaces/SE2StateSpace.h>
 #include <ompl/base/spaces/SE3StateSpace.h>
+#include <ompl/util/RandomNumbers.h>
 
 #include "gpu_planning_scene/interpolation.h"
 #include "gpu_planning_scene/planning/group_state_space.h"
@@ -155,6 +158,64 @@ TEST_F(GroupStateSpaceTest, BoundsAreTheLimitsAndForTranslationsTheRangeOfRandom
   EXPECT_EQ(joints.high, (Row{2, 2, 2}));
   EXPECT_EQ(space->as<ob::SE2StateSpace>(3)->getBounds().low, (Row{-1, -1}));
   EXPECT_EQ(space->as<ob::SE3StateSpace>(4)->getBounds().high, (Row{1, 1, 1}));
+}
+
+/// A random state of joints with limits, as parts of their ranges.
+Row randomParts(const Space& space, ob::StateSampler& sampler)
+{
+  ob::ScopedState<> state(space);
+  sampler.sampleUniform(state.get());
+  Row parts = state.reals();
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    parts[i] = (parts[i] - space->ranges()[i].first) / (space->ranges()[i].second - space->ranges()[i].first);
+  return parts;
+}
+
+TEST_F(GroupStateSpaceTest, RandomStatesOfJointsWithLimitsAreUniformAndIndependent)
+{
+  static constexpr std::size_t kDraws = 40'000;
+  static constexpr std::size_t kBins = 8;
+  const Space space = spaceOf("limited");
+  const ob::StateSamplerPtr sampler = space->allocStateSampler();
+  std::vector<Row> draws;
+  for (std::size_t i = 0; i < kDraws; ++i)
+    draws.push_back(randomParts(space, *sampler));
+  // Counts of the squares of two values of a state, and of the same value in two states after each other.
+  const auto expect_even = [&](const auto& x_of, const auto& y_of)
+  {
+    std::array<std::size_t, kBins * kBins> counts{};
+    for (std::size_t i = 1; i < kDraws; ++i)
+    {
+      const double x = x_of(i);
+      const double y = y_of(i);
+      ASSERT_TRUE(x >= 0.0 && x <= 1.0 && y >= 0.0 && y <= 1.0) << x << ' ' << y;
+      const auto bin_of = [](double part) { return std::min(kBins - 1, static_cast<std::size_t>(part * kBins)); };
+      ++counts[bin_of(x) * kBins + bin_of(y)];
+    }
+    const double expected = static_cast<double>(kDraws) / (kBins * kBins);
+    for (const std::size_t count : counts)
+      EXPECT_NEAR(static_cast<double>(count), expected, 6.0 * std::sqrt(expected));
+  };
+  for (std::size_t k = 0; k < 3; ++k)
+  {
+    expect_even([&](std::size_t i) { return draws[i][k]; }, [&](std::size_t i) { return draws[i][(k + 1) % 3]; });
+    expect_even([&](std::size_t i) { return draws[i][k]; }, [&](std::size_t i) { return draws[i - 1][k]; });
+  }
+}
+
+TEST_F(GroupStateSpaceTest, RandomStatesFollowTheSeedOfOmplAndDifferBetweenSamplers)
+{
+  const Space space = spaceOf("limited");
+  const auto draw = [&]
+  {
+    const ob::StateSamplerPtr sampler = space->allocStateSampler();
+    return randomParts(space, *sampler);
+  };
+  ompl::RNG::setSeed(7);
+  const Row first = draw();
+  EXPECT_NE(draw(), first);
+  ompl::RNG::setSeed(7);
+  EXPECT_EQ(draw(), first);
 }
 
 TEST_F(GroupStateSpaceTest, FixedMimicPassiveAndJammedJointsAreNotPlannedFor)
