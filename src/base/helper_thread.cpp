@@ -1,5 +1,6 @@
 #include "base/helper_thread.h"
 
+#include <cerrno>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -21,18 +22,9 @@ std::optional<cpu_set_t> severalCores()
   return cores;
 }
 
-struct Start
+void* run(void* work)
 {
-  std::function<void()> work;
-  std::optional<cpu_set_t> cores;  // on which the thread may run after its start
-};
-
-void* run(void* argument)
-{
-  const std::unique_ptr<Start> start(static_cast<Start*>(argument));
-  if (start->cores)
-    sched_setaffinity(0, sizeof(*start->cores), &*start->cores);
-  start->work();
+  (*std::unique_ptr<std::function<void()>>(static_cast<std::function<void()>*>(work)))();
   return nullptr;
 }
 
@@ -40,15 +32,12 @@ void* run(void* argument)
 class Elsewhere
 {
  public:
-  explicit Elsewhere(const std::optional<cpu_set_t>& cores)
+  explicit Elsewhere(cpu_set_t cores)
   {
     pthread_attr_init(&attributes_);
-    const int here = sched_getcpu();
-    if (!cores || here < 0 || !CPU_ISSET(here, &*cores))
-      return;
-    cpu_set_t others = *cores;
-    CPU_CLR(here, &others);
-    pthread_attr_setaffinity_np(&attributes_, sizeof(others), &others);
+    if (const int here = sched_getcpu(); here >= 0)
+      CPU_CLR(here, &cores);
+    pthread_attr_setaffinity_np(&attributes_, sizeof(cores), &cores);
   }
   ~Elsewhere() { pthread_attr_destroy(&attributes_); }
   Elsewhere(const Elsewhere&) = delete;
@@ -63,11 +52,18 @@ class Elsewhere
 
 HelperThread::HelperThread(std::function<void()> work) : thread_()
 {
-  auto start = std::make_unique<Start>(Start{std::move(work), severalCores()});
-  const Elsewhere elsewhere(start->cores);
-  if (const int error = pthread_create(&thread_, elsewhere.attributes(), run, start.get()); error != 0)
+  auto own = std::make_unique<std::function<void()>>(std::move(work));
+  const std::optional<cpu_set_t> cores = severalCores();
+  int error = cores ? pthread_create(&thread_, Elsewhere(*cores).attributes(), run, own.get()) : EINVAL;
+  if (error == 0)
+    // Not by the thread itself: while it waits for a busy core, an idle one must be able to take it.
+    pthread_setaffinity_np(thread_, sizeof(*cores), &*cores);
+  else
+    // There is only one core, or the system does not let this process choose cores.
+    error = pthread_create(&thread_, nullptr, run, own.get());
+  if (error != 0)
     throw std::system_error(error, std::generic_category(), "no thread can be started");
-  start.release();  // the thread deletes it
+  own.release();  // the thread deletes it
 }
 
 HelperThread::~HelperThread()

@@ -8,10 +8,10 @@ namespace gpu_planning_scene::core
 {
 /// A thread that does a piece of work beside the thread that creates it. The destructor waits for its end.
 ///
-/// It starts on another core than its creator, if it may use one, and then runs on any. Without this, Linux in a
-/// virtual machine often puts a new thread behind its creator, although another core is idle: it takes a core that the
-/// host has halted for busy. The new thread then waits until the creator's time slice ends. On a machine with two
-/// cores that had rested for 0.3 s, it waited 2.8 ms, and 0.16 ms with this.
+/// It starts on another core than its creator, if there is one. Without this, Linux in a virtual machine often puts a
+/// new thread behind its creator although another core is idle, because it regards a core that the host has halted as
+/// busy. The new thread then waits until the creator's time slice ends: 2.8 ms on two cores that had rested for 0.3 s,
+/// and 0.16 ms with this. Once created, the thread may run on all cores of its creator.
 class HelperThread
 {
  public:

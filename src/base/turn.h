@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
 
 namespace gpu_planning_scene::core
@@ -20,16 +21,18 @@ class Turn
     is_taken_ = true;
     return true;
   }
-  /// Waits until no thread has the turn, at most for this time. Returns whether no thread had it.
+  /// Waits until the thread that has the turn, if any, gives it back, at most for this time. Returns whether it did.
+  /// Another thread may have taken the turn since.
   bool waitFor(std::chrono::milliseconds time)
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    return free_.wait_for(lock, time, [this] { return !is_taken_; });
+    return free_.wait_for(lock, time, [this, before = given_] { return !is_taken_ || given_ != before; });
   }
   void give()
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     is_taken_ = false;
+    ++given_;
     free_.notify_all();
   }
 
@@ -37,5 +40,6 @@ class Turn
   std::mutex mutex_;
   std::condition_variable free_;
   bool is_taken_ = false;
+  std::uint64_t given_ = 0;  // how often the turn has been given back
 };
 }  // namespace gpu_planning_scene::core

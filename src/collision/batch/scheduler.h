@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "base/turn.h"
 #include "collision/batch/change_gate.h"
 #include "collision/batch/device_pool.h"
-#include "base/turn.h"
 #include "collision/cpu/cpu_scene.h"
 #include "gpu_planning_scene/state_checker.h"
 

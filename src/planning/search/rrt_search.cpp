@@ -101,6 +101,8 @@ bool RrtSearch::isProven(const MotionValidator& validator, const BidirectionalTr
     if (ptc)
       return false;
   const Finally give_turn([this] { proofs_.give(); });
+  if (ptc)
+    return false;
   std::vector<MotionValidator::Motion> motions;
   std::vector<std::pair<BidirectionalTree::Side, const Vertex*>> ends;  // the later vertex of each motion within a tree
   const auto add = [&](BidirectionalTree::Side side, const Vertex* vertex)
@@ -170,13 +172,19 @@ RrtSearch::Path RrtSearch::take(const std::vector<BidirectionalTree::Meeting>& m
   return provenPath(validator, ptc);
 }
 
-RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
-                                    const BidirectionalTree::Limits& limits, const ob::PlannerTerminationCondition& ptc)
+/// Waits until the proof of another search, if any, has ended. Returns false if this search is to end.
+bool RrtSearch::waitForProof(const ob::PlannerTerminationCondition& ptc)
 {
   while (!proofs_.waitFor(kLookAtEnd))
     if (ptc)
-      return nullptr;
-  return take(trees_.grow(validator, limits, ptc), validator, goal, ptc);
+      return false;
+  return !ptc;
+}
+
+RrtSearch::Path RrtSearch::runRound(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
+                                    const BidirectionalTree::Limits& limits, const ob::PlannerTerminationCondition& ptc)
+{
+  return waitForProof(ptc) ? take(trees_.grow(validator, limits, ptc), validator, goal, ptc) : nullptr;
 }
 
 RrtSearch::Path RrtSearch::followPaths(const MotionValidator& validator, const ob::GoalSampleableRegion& goal,
@@ -185,7 +193,8 @@ RrtSearch::Path RrtSearch::followPaths(const MotionValidator& validator, const o
 {
   const std::vector<PathGeometric> routes = knownRoutes(information_, known, trees_.roots(BidirectionalTree::Start),
                                                         trees_.roots(BidirectionalTree::Goal), range);
-  return routes.empty() ? nullptr : take(trees_.follow(validator, routes, ptc), validator, goal, ptc);
+  return routes.empty() || !waitForProof(ptc) ? nullptr
+                                              : take(trees_.follow(validator, routes, ptc), validator, goal, ptc);
 }
 
 RrtSearch::Path RrtSearch::approximatePath(const MotionValidator& validator,

@@ -15,8 +15,9 @@
 namespace gpu_planning_scene::core
 {
 /// The search of BatchRrtConnect. Two trees grow by motions that are checked coarsely. If they meet, there is a path
-/// through the meeting; its motions are proven by the validator's own rule. While a search proves a path, the searches that
-/// share its turn wait: the cores do the proof, which mostly succeeds, instead of rounds. Not thread-safe.
+/// through the meeting; its motions are proven by the validator's own rule. While one search
+/// proves a path, the searches that share its turn pause before their next round, so that the cores are free for the
+/// proof. Most proofs succeed and end the plan. Not thread-safe.
 class RrtSearch
 {
  public:
@@ -63,6 +64,7 @@ class RrtSearch
             const ompl::base::GoalSampleableRegion& goal, const ompl::base::PlannerTerminationCondition& ptc);
   void addCandidate(const ompl::base::GoalSampleableRegion& goal, const BidirectionalTree::Meeting& meeting);
   void lookAtNewVertices(const ompl::base::GoalSampleableRegion& goal);
+  bool waitForProof(const ompl::base::PlannerTerminationCondition& ptc);
   bool isProven(const MotionValidator& validator, const BidirectionalTree::Meeting& meeting,
                 const ompl::base::PlannerTerminationCondition& ptc);
   const Vertex* closest() const;

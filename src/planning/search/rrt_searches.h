@@ -7,6 +7,7 @@
 
 #include <ompl/base/Planner.h>
 
+#include "base/turn.h"
 #include "planning/search/rrt_search.h"
 
 namespace gpu_planning_scene::core

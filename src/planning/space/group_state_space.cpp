@@ -250,9 +250,12 @@ GroupStateSpace::GroupStateSpace(std::shared_ptr<const RobotModel> robot, const 
       const Variable& variable = robot_->variables()[joint->first_variable];
       limits->addDimension(joint->name, variable.lower, variable.upper);
     }
-  limits->setStateSamplerAllocator([](const ob::StateSpace* space) { return std::make_shared<UniformSampler>(space); });
   if (limits->getDimension() > 0)
+  {
+    limits->setStateSamplerAllocator([](const ob::StateSpace* space)
+                                     { return std::make_shared<UniformSampler>(space); });
     addSubspace(limits, kWeight);
+  }
   for (const Joint* joint : joints)
   {
     for (int i = 0; i < variableCount(joint->type); ++i)

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+// SplitMix64: G. L. Steele, D. Lea, C. H. Flood: Fast splittable pseudorandom number generators. OOPSLA 2014. The bits
+// are mixed by D. Stafford's variant 13, as in Java's SplittableRandom.
 namespace gpu_planning_scene::core
 {
 namespace
 {
 namespace ob = ompl::base;
 
-// The constants of the paper.
 constexpr std::uint64_t kGoldenGamma = 0x9e3779b97f4a7c15U;
 constexpr std::uint64_t kFirstFactor = 0xbf58476d1ce4e5b9U;
 constexpr std::uint64_t kSecondFactor = 0x94d049bb133111ebU;

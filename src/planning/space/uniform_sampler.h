@@ -8,9 +8,7 @@ namespace gpu_planning_scene::core
 {
 /// Draws uniform states within bounds some ten times as fast as OMPL's own sampler, whose random numbers took a tenth
 /// of the time of a search. The seed is that of OMPL's generator for this sampler, so ompl::RNG::setSeed() determines
-/// the states. Other functions are OMPL's. Not thread-safe.
-///
-/// SplitMix64: G. L. Steele, D. Lea, C. H. Flood: Fast splittable pseudorandom number generators. OOPSLA 2014.
+/// the states. sampleUniformNear() and sampleGaussian() are OMPL's, with OMPL's generator. Not thread-safe.
 class UniformSampler : public ompl::base::RealVectorStateSampler
 {
  public:

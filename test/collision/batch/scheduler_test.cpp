@@ -545,16 +545,21 @@ TEST_F(SchedulerTest, ASceneThatTheCpuRejectsIsRefused)
 TEST_F(SchedulerTest, PassesOnTheNeighbourhoodsOfStates)
 {
   JointNeighbourhood around;
+  std::vector<std::uint32_t> rows;
   std::vector<double> states;
   for (std::size_t i = 0; i < kCount; ++i)
   {
-    around.rows.push_back(static_cast<std::uint32_t>(i % 2));
+    rows.push_back(static_cast<std::uint32_t>(i % 2));
     states.push_back(i % 4 < 2 ? -0.5 : -0.2);
   }
   around.travel = {{0.1, 0.0}, {0.3, 0.0}};
-  const BatchResult result = scheduler().check({states.data(), kCount, "", &around});
-  for (std::size_t i = 0; i < kCount; ++i)
-    ASSERT_EQ(result.valid[i], i % 4 == 3 ? 0 : 1) << i;  // -0.2 + 0.3 is in the wall
+  for (const std::size_t count : {std::size_t{1}, std::size_t{64}, std::size_t{65}, std::size_t{256}, kCount})
+  {
+    around.rows.assign(rows.begin(), rows.begin() + static_cast<std::ptrdiff_t>(count));
+    const BatchResult result = scheduler().check({states.data(), count, "", &around});
+    for (std::size_t i = 0; i < count; ++i)
+      ASSERT_EQ(result.valid[i], i % 4 == 3 ? 0 : 1) << i << " of " << count;  // -0.2 + 0.3 is in the wall
+  }
 }
 
 TEST_F(SchedulerTest, TheCallerHearsOfTheProgressAndCanEndTheCheck)

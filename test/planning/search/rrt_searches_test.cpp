@@ -164,8 +164,9 @@ TEST(ParallelBatchRrtConnect, ProvesOnePathAtATimeWhileItsOtherSearchesWait)
   EXPECT_TRUE(planner.Planner::solve(60.0));
   EXPECT_GT(checker->proofs, 0);
   EXPECT_EQ(checker->proofs_beside_proofs, 0);
-  // Each of the other searches ends the round that it has begun.
-  EXPECT_LE(checker->checks_beside_proofs, 3 * 8 * checker->proofs);
+  // Each of the other searches ends the round that it has begun, which checks its samples in several batches.
+  constexpr int kBatchesOfARound = 8;
+  EXPECT_LE(checker->checks_beside_proofs, 3 * kBatchesOfARound * checker->proofs);
 }
 
 /// Its checks fail on all threads but the one that made it.
