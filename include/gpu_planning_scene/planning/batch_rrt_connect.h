@@ -29,9 +29,10 @@ class RrtSearches;
 /// The trees grow by motions that MotionValidator::validateExtensions accepts. When a path is found, its motions are
 /// validated by the validator's rule. A motion that fails is removed from its tree, with everything that grew from it.
 /// If the checks of the validator run side by side (StateChecker::checksSideBySide), a hard problem gets several
-/// searches with different random states by default, each on a thread of its own. The first solution ends them all.
-/// Then isSatisfied() and isStartGoalPairValid() of the goal are called from several threads, also while goals are
-/// sampled. Goals that arrive late reach only one of the searches. Not thread-safe.
+/// searches with different random states by default, each on a thread of its own. While one proves its path, the others
+/// wait. The first solution ends them all. Then isSatisfied() and isStartGoalPairValid() of the goal are called from
+/// several threads, also while goals are sampled. Goals that arrive late reach only one of the searches. Not
+/// thread-safe.
 ///
 /// J. J. Kuffner, S. M. LaValle: RRT-Connect: An efficient approach to single-query path planning. ICRA 2000.
 /// Balanced trees: S. M. LaValle: Planning Algorithms. Cambridge University Press, 2006, section 5.5.3.
