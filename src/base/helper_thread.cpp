@@ -63,7 +63,7 @@ HelperThread::HelperThread(std::function<void()> work) : thread_()
     error = pthread_create(&thread_, nullptr, run, own.get());
   if (error != 0)
     throw std::system_error(error, std::generic_category(), "no thread can be started");
-  own.release();  // the thread deletes it
+  static_cast<void>(own.release());  // the thread deletes it
 }
 
 HelperThread::~HelperThread()

@@ -26,6 +26,7 @@ void parallelFor(std::size_t count, std::size_t per_chunk, const Work& work)
   {
     try
     {
+      // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): `work` may write to what it has captured
       Work own = work;
       for (std::size_t chunk = next++; chunk < chunks && !has_failed; chunk = next++)
         own(chunk * per_chunk, std::min(count, (chunk + 1) * per_chunk));
