@@ -22,7 +22,7 @@ namespace
 {
 using Clock = std::chrono::steady_clock;
 
-// Checking this many states takes less time than starting a thread. A state with margins takes some ten times as long.
+// For so few states, threads do not pay. A state with margins takes some ten times as long.
 constexpr std::size_t kFewStates = 256;
 constexpr std::size_t kFewStatesWithMargins = 64;
 // A core is started for each such number of states, if there are more than a few.
