@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/short_slices.h"
 #include "gpu/gl_check.h"
 
 namespace gpu_planning_scene::core
@@ -59,6 +60,7 @@ std::future<void> GlThread::start(std::function<void()> job)
 
 void GlThread::serve(const std::string& device_selector, std::promise<Device>& started)
 {
+  runInShortSlices();
   std::unique_ptr<EglContext> context;
   try
   {

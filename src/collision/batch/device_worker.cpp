@@ -14,6 +14,7 @@
 #include <malloc.h>
 
 #include "base/finally.h"
+#include "base/short_slices.h"
 #include "collision/batch/device_parts.h"
 #include "collision/problem/collision_problem.h"
 #include "gpu_planning_scene/error.h"
@@ -92,6 +93,7 @@ struct DeviceWorker::Shared
 
 void DeviceWorker::Shared::serve()
 {
+  runInShortSlices();
   std::unique_lock<std::mutex> lock(mutex);
   while (true)
   {
