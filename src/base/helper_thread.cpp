@@ -1,7 +1,6 @@
 #include "base/helper_thread.h"
 
 #include <cerrno>
-#include <memory>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -20,12 +19,6 @@ std::optional<cpu_set_t> severalCores()
   if (sched_getaffinity(0, sizeof(cores), &cores) != 0 || CPU_COUNT(&cores) < 2)
     return std::nullopt;
   return cores;
-}
-
-void* run(void* work)
-{
-  (*std::unique_ptr<std::function<void()>>(static_cast<std::function<void()>*>(work)))();
-  return nullptr;
 }
 
 /// Attributes of a thread that starts on another core than the calling thread.
@@ -50,20 +43,34 @@ class Elsewhere
 };
 }  // namespace
 
-HelperThread::HelperThread(std::function<void()> work) : thread_()
+void* HelperThread::run(void* helper)
 {
-  auto own = std::make_unique<std::function<void()>>(std::move(work));
-  const std::optional<cpu_set_t> cores = severalCores();
-  int error = cores ? pthread_create(&thread_, Elsewhere(*cores).attributes(), run, own.get()) : EINVAL;
+  auto& self = *static_cast<HelperThread*>(helper);
+  self.work_();
+  while (!self.may_end_)
+    sched_yield();
+  return nullptr;
+}
+
+HelperThread::HelperThread(std::function<void()> work) : work_(std::move(work)), thread_()
+{
+  // Asked only once where the system forbids it: until glibc 2.34, pthread_create then loses the memory of a stack.
+  static std::atomic<bool> may_choose_cores{true};
+  const std::optional<cpu_set_t> cores = may_choose_cores ? severalCores() : std::nullopt;
+  int error = cores ? pthread_create(&thread_, Elsewhere(*cores).attributes(), run, this) : EINVAL;
   if (error == 0)
-    // Not by the thread itself: while it waits for a busy core, an idle one must be able to take it.
+    // Not by the thread itself: while it waits for a busy core, an idle one must be able to take it. The thread has not
+    // ended yet. If it had, the system might change the set of another thread.
     pthread_setaffinity_np(thread_, sizeof(*cores), &*cores);
   else
-    // There is only one core, or the system does not let this process choose cores.
-    error = pthread_create(&thread_, nullptr, run, own.get());
+  {
+    if (error == EPERM || error == EACCES || error == ENOSYS)
+      may_choose_cores = false;
+    error = pthread_create(&thread_, nullptr, run, this);
+  }
+  may_end_ = true;
   if (error != 0)
     throw std::system_error(error, std::generic_category(), "no thread can be started");
-  static_cast<void>(own.release());  // the thread deletes it
 }
 
 HelperThread::~HelperThread()

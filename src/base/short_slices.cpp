@@ -12,7 +12,7 @@ namespace
 {
 constexpr std::uint64_t kShortest = 100'000;  // nanoseconds; Linux allows no shorter slices
 
-// The kernel's sched_attr, which glibc 2.36 does not declare, and whose header clashes with <sched.h> of later ones.
+// The kernel's sched_attr. glibc declares it since 2.41, and the kernel's header declares sched_param a second time.
 struct Attributes
 {
   std::uint32_t size;
@@ -31,6 +31,10 @@ void runInShortSlices()
 {
   Attributes own{};
   if (syscall(SYS_sched_getattr, 0, &own, sizeof(own), 0) != 0 || own.policy != SCHED_OTHER)
+    return;
+  const bool has_slices = own.runtime != 0;  // since Linux 6.12
+  // kResetOnFork would give the threads of a thread with a negative nice value the value 0.
+  if (!has_slices || own.nice < 0)
     return;
   own.flags = kResetOnFork;
   own.runtime = kShortest;

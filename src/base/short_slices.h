@@ -3,11 +3,12 @@
 namespace gpu_planning_scene::core
 {
 /// Lets the calling thread run soon after each time it is woken, also while other threads use all cores. For threads
-/// that wait for a device and give it work: they run for short times, and the device rests while they wait for a core.
+/// that wait for a device and give it work: the device rests while they wait for a core.
 ///
-/// Linux since 6.12 gives a thread with shorter time slices than the running one the core at once. Without this, a
-/// woken thread waits until a slice of 2.8 ms ends. Earlier kernels and real-time threads are left as they are. The
-/// thread keeps its nice value. Threads that it creates have slices as usual.
+/// Linux since 6.12 mostly prefers a woken thread with shorter time slices to the running one. Otherwise, the woken
+/// thread waits until the running one loses the core, for some milliseconds. Nothing changes in earlier kernels, and
+/// for threads with another policy or a negative nice value. Threads that the thread creates have slices as usual, and
+/// its requests of uclamp are not theirs.
 ///
 /// EEVDF: I. Stoica, H. Abdel-Wahab: Earliest eligible virtual deadline first. Old Dominion University, TR-95-22, 1995.
 void runInShortSlices();

@@ -21,12 +21,18 @@ class Turn
     is_taken_ = true;
     return true;
   }
-  /// Waits until the thread that has the turn, if any, gives it back, at most for this time. Returns whether it did.
-  /// Another thread may have taken the turn since.
-  bool waitFor(std::chrono::milliseconds time)
+  /// How often the turn has been given back.
+  std::uint64_t given()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return given_;
+  }
+  /// Waits until no thread has the turn or it has been given back since given() was `before`, at most for this time.
+  /// Returns whether this is so. Another thread may have taken the turn since.
+  bool waitFor(std::uint64_t before, std::chrono::milliseconds time)
   {
     std::unique_lock<std::mutex> lock(mutex_);
-    return free_.wait_for(lock, time, [this, before = given_] { return !is_taken_ || given_ != before; });
+    return free_.wait_for(lock, time, [&] { return !is_taken_ || given_ != before; });
   }
   void give()
   {
@@ -40,6 +46,6 @@ class Turn
   std::mutex mutex_;
   std::condition_variable free_;
   bool is_taken_ = false;
-  std::uint64_t given_ = 0;  // how often the turn has been given back
+  std::uint64_t given_ = 0;
 };
 }  // namespace gpu_planning_scene::core

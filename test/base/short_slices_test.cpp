@@ -1,6 +1,6 @@
 // Threads of devices have short time slices, and nothing else of them changes.
 
-#include <cerrno>
+#include <algorithm>
 #include <cstdint>
 #include <thread>
 
@@ -16,7 +16,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-/// The part of the kernel's sched_attr up to the slice, and what follows.
+/// The kernel's sched_attr. Of a thread with the policy SCHED_OTHER, `slice` is its field sched_runtime.
 struct SliceAttributes
 {
   std::uint32_t size, policy;
@@ -29,7 +29,7 @@ struct SliceAttributes
 SliceAttributes ofThisThread()
 {
   SliceAttributes attributes{};
-  EXPECT_EQ(0, syscall(SYS_sched_getattr, 0, &attributes, sizeof(attributes), 0));
+  syscall(SYS_sched_getattr, 0, &attributes, sizeof(attributes), 0);
   return attributes;
 }
 
@@ -40,10 +40,21 @@ void onAThread(const Run& run)
   std::thread(run).join();
 }
 
-TEST(ShortSlices, AreThoseOfTheCallingThreadAndNotOfItsChildren)
+class ShortSlices : public testing::Test
 {
-  if (ofThisThread().slice == 0)
-    GTEST_SKIP() << "needs Linux 6.12";
+ protected:
+  void SetUp() override
+  {
+    SliceAttributes own = ofThisThread();
+    if (own.policy != SCHED_OTHER || own.slice == 0 || own.nice < 0)
+      GTEST_SKIP() << "needs Linux 6.12, its usual policy and a nice value of at least 0";
+    if (syscall(SYS_sched_setattr, 0, &own, 0) != 0)
+      GTEST_SKIP() << "needs a system that lets threads change their slices";
+  }
+};
+
+TEST_F(ShortSlices, AreThoseOfTheCallingThreadAndNotOfItsChildren)
+{
   const std::uint64_t usual = ofThisThread().slice;
   onAThread(
       [usual]
@@ -55,20 +66,34 @@ TEST(ShortSlices, AreThoseOfTheCallingThreadAndNotOfItsChildren)
   EXPECT_EQ(ofThisThread().slice, usual);
 }
 
-TEST(ShortSlices, KeepTheNiceValue)
+TEST_F(ShortSlices, KeepTheNiceValueOfTheThreadAndOfItsChildren)
 {
   onAThread(
       []
       {
         // On Linux, the nice value is that of the thread.
-        const int nice = getpriority(PRIO_PROCESS, 0) + 1;
+        const int nice = std::min(19, getpriority(PRIO_PROCESS, 0) + 1);
         ASSERT_EQ(0, setpriority(PRIO_PROCESS, 0, nice));
         runInShortSlices();
+        EXPECT_EQ(ofThisThread().slice, 100'000U);
         EXPECT_EQ(getpriority(PRIO_PROCESS, 0), nice);
+        onAThread([nice] { EXPECT_EQ(getpriority(PRIO_PROCESS, 0), nice); });
       });
 }
 
-TEST(ShortSlices, LeaveAThreadWithAnotherPolicyAsItIs)
+TEST_F(ShortSlices, ChangeNothingForANegativeNiceValue)
+{
+  onAThread(
+      []
+      {
+        if (setpriority(PRIO_PROCESS, 0, -1) != 0)
+          GTEST_SKIP() << "needs the right to negative nice values";
+        runInShortSlices();
+        onAThread([] { EXPECT_EQ(getpriority(PRIO_PROCESS, 0), -1); });
+      });
+}
+
+TEST_F(ShortSlices, LeaveAThreadWithAnotherPolicyAsItIs)
 {
   onAThread(
       []

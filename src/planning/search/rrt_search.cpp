@@ -175,7 +175,8 @@ RrtSearch::Path RrtSearch::take(const std::vector<BidirectionalTree::Meeting>& m
 /// Waits until the proof of another search, if any, has ended. Returns false if this search is to end.
 bool RrtSearch::waitForProof(const ob::PlannerTerminationCondition& ptc)
 {
-  while (!proofs_.waitFor(kLookAtEnd))
+  const std::uint64_t before = proofs_.given();
+  while (!proofs_.waitFor(before, kLookAtEnd))
     if (ptc)
       return false;
   return !ptc;

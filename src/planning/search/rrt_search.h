@@ -15,9 +15,9 @@
 namespace gpu_planning_scene::core
 {
 /// The search of BatchRrtConnect. Two trees grow by motions that are checked coarsely. If they meet, there is a path
-/// through the meeting; its motions are proven by the validator's own rule. While one search
-/// proves a path, the searches that share its turn pause before their next round, so that the cores are free for the
-/// proof. Most proofs succeed and end the plan. Not thread-safe.
+/// through the meeting; its motions are proven by the validator's own rule. While one search proves a path, the
+/// searches that share its turn pause before their next round, so that the cores are free for the proof. Most proofs
+/// succeed and end the plan. Not thread-safe.
 class RrtSearch
 {
  public:
