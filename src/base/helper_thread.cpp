@@ -54,13 +54,13 @@ void* HelperThread::run(void* helper)
 
 HelperThread::HelperThread(std::function<void()> work) : work_(std::move(work)), thread_()
 {
-  // Asked only once where the system forbids it: until glibc 2.34, pthread_create then loses the memory of a stack.
+  // Where the system forbids it, it is tried only once: before glibc 2.34, each such pthread_create loses a stack.
   static std::atomic<bool> may_choose_cores{true};
   const std::optional<cpu_set_t> cores = may_choose_cores ? severalCores() : std::nullopt;
   int error = cores ? pthread_create(&thread_, Elsewhere(*cores).attributes(), run, this) : EINVAL;
   if (error == 0)
-    // Not by the thread itself: while it waits for a busy core, an idle one must be able to take it. The thread has not
-    // ended yet. If it had, the system might change the set of another thread.
+    // Not by the thread itself: while it waits for a busy core, an idle one must be able to take it. The thread cannot
+    // have ended: in place of a thread that has ended, this would change the calling one.
     pthread_setaffinity_np(thread_, sizeof(*cores), &*cores);
   else
   {

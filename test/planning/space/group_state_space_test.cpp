@@ -193,7 +193,7 @@ TEST_F(GroupStateSpaceTest, RandomStatesOfJointsWithLimitsAreUniformAndIndepende
   std::vector<Row> draws;
   for (std::size_t i = 0; i < kDraws; ++i)
     draws.push_back(randomParts(space, *sampler));
-  // Counts of the squares of two values of a state, and of the same value in two states after each other.
+  // Counts the states in each square of a grid over two values: two of a state, and one of a state and the next.
   const auto expect_even = [&](const auto& x_of, const auto& y_of)
   {
     std::array<std::size_t, kBins * kBins> counts{};
