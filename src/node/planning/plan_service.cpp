@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <utility>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "node/endpoints/respond.h"
 #include "node/messages/requested_timing.h"
 #include "node/messages/trajectory_messages.h"
+#include "node/planning/rehearsal.h"
 #include "node/planning/requested_goals.h"
 #include "service/service_errors.h"
 
@@ -22,8 +22,6 @@ namespace gpu_planning_scene::core
 namespace
 {
 using Response = PlanMotion::Response;
-
-constexpr std::size_t kStatesToPrepare = 512;  // as in a round of the batch planner
 
 std::uint8_t statusOf(PlanningStatus status)
 {
@@ -69,40 +67,34 @@ PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFra
 void PlanService::prepare()
 {
   const std::shared_ptr<const PlanningScene> scene = store_.snapshot().scene;
-  if (scene->robot->groups().empty())
-    return;
-  for (const Group& group : scene->robot->groups())
+  const auto attempt = [](const std::string& what, const std::function<void()>& preparation)
+  {
     try
     {
-      plugins_.find(configs_.find("", group.name).type, configs_.names());
+      preparation();
     }
     catch (const std::exception& error)
     {
-      ROS_DEBUG_STREAM("the planner of group '" << group.name << "' is not prepared: " << error.what());
+      ROS_DEBUG_STREAM(what << " not prepared: " << error.what());
     }
-  try
-  {
-    CheckerPool::Lease lease(checkers_, scene);
-    const std::size_t width = scene->robot->variables().size();
-    std::vector<double> states(kStatesToPrepare * width);
-    std::mt19937_64 generator(1);
-    for (std::size_t i = 0; i < kStatesToPrepare; ++i)
-      scene->robot->randomState(generator, scene->robot->defaultState().data(), &states[i * width]);
-    const JointNeighbourhood unmoved{std::vector<JointTravel>(scene->robot->joints().size()),
-                                     std::vector<std::uint32_t>(kStatesToPrepare)};
-    for (const Group& group : scene->robot->groups())
-      if (ros::ok())
-      {
-        // The first check loads the proofs, and the second one finds the bounds of motions.
-        lease.checker()->check(states.data(), kStatesToPrepare, group.name);
-        lease.checker()->check(states.data(), kStatesToPrepare, group.name, &unmoved);
-      }
-    lease.giveBack();
-  }
-  catch (const std::exception& error)
-  {
-    ROS_DEBUG_STREAM("plans are not prepared: " << error.what());
-  }
+  };
+  attempt("plans are",
+          [&]
+          {
+            // Another planner may take longer than it is told, and the node is not ready before it ends.
+            const std::shared_ptr<const PlannerFactory> batch_planner = plugins_.find(kBatchPlanner, {});
+            CheckerPool::Lease lease(checkers_, scene);
+            for (const Group& group : scene->robot->groups())
+            {
+              if (group.variables.empty() || !ros::ok())
+                continue;
+              attempt("the planner of group '" + group.name + "' is",
+                      [&] { plugins_.find(configs_.find("", group.name).type, configs_.names()); });
+              attempt("plans of group '" + group.name + "' are",
+                      [&] { rehearsePlans(scene, lease.checker(), group.name, options_.motions, *batch_planner); });
+            }
+            lease.giveBack();
+          });
 }
 
 void PlanService::stop()

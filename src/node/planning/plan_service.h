@@ -35,8 +35,8 @@ class PlanService
   PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFrames others, MakeChecker make_checker,
               const MemoryGuard& memory, Show show, const PlanServiceOptions& options);
 
-  /// Loads the planners that the groups have by default, and prepares a checker for each group, so that the first
-  /// request takes about as long as later ones. What fails here fails again in a request, which then says why.
+  /// Loads the planners that the groups have by default, and rehearses plans of each group, so that the first request
+  /// takes about as long as later ones. What fails here fails again in a request, which then says why.
   void prepare();
 
   PlanMotion::Response plan(const PlanMotion::Request& request);
