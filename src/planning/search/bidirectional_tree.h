@@ -8,6 +8,7 @@
 #include <ompl/geometric/PathGeometric.h>
 
 #include "gpu_planning_scene/planning/motion_validator.h"
+#include "planning/search/half_turn_window.h"
 #include "planning/search/rrt_tree.h"
 
 namespace gpu_planning_scene::core
@@ -103,6 +104,8 @@ class BidirectionalTree
 
   ompl::base::SpaceInformationPtr information_;
   ompl::base::StateSamplerPtr sampler_;
+  HalfTurnWindow window_;
+  std::size_t draws_ = 0;  // without those within a largest length
   std::array<RrtTree, 2> trees_;
   std::array<std::vector<const ompl::base::State*>, 2> roots_;
   std::size_t rounds_ = 0;

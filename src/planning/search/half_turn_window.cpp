@@ -1,0 +1,42 @@
+#include "planning/search/half_turn_window.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "base/math_constants.h"
+#include "gpu_planning_scene/planning/group_state_space.h"
+
+namespace gpu_planning_scene::core
+{
+HalfTurnWindow::HalfTurnWindow(ompl::base::StateSpacePtr space) : space_(std::move(space))
+{
+  const auto& group_space = dynamic_cast<const GroupStateSpace&>(*space_);
+  const std::vector<int>& variables = group_space.variables();
+  for (const Joint& joint : group_space.robot()->joints())
+  {
+    const auto found = std::find(variables.begin(), variables.end(), joint.first_variable);
+    if (joint.type != JointType::Revolute || joint.mimic || found == variables.end())
+      continue;
+    const auto value = static_cast<std::size_t>(found - variables.begin());
+    const auto [lower, upper] = group_space.ranges()[value];
+    if (upper - lower > kPi)
+      joints_.push_back({group_space.getValueLocations()[value], lower, upper});
+  }
+}
+
+void HalfTurnWindow::moveInto(const ompl::base::State* from, const ompl::base::State* to, double t,
+                              ompl::base::State* state) const
+{
+  for (const auto& [location, lower, upper] : joints_)
+  {
+    const double begin = *space_->getValueAddressAtLocation(from, location);
+    const double end = *space_->getValueAddressAtLocation(to, location);
+    const double middle = begin + t * (end - begin);
+    const double least = std::max(lower, middle - kPi);
+    const double most = std::min(upper, middle + kPi);
+    double& value = *space_->getValueAddressAtLocation(state, location);
+    value = std::clamp(least + (value - lower) / (upper - lower) * (most - least), least, most);
+  }
+}
+}  // namespace gpu_planning_scene::core
