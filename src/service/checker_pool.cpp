@@ -1,5 +1,7 @@
 #include "service/checker_pool.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "service/service_errors.h"
@@ -11,10 +13,14 @@ CheckerPool::Lease::Lease(CheckerPool& pool, const std::shared_ptr<const Plannin
 {
   {
     const std::lock_guard<std::mutex> lock(pool_.mutex_);
-    if (!pool_.idle_.empty())
+    std::vector<Kept>& idle = pool_.idle_;
+    if (!idle.empty())
     {
-      checker_ = std::move(pool_.idle_.back());
-      pool_.idle_.pop_back();
+      const auto has_scene =
+          std::find_if(idle.begin(), idle.end(), [&scene](const Kept& kept) { return kept.scene == scene; });
+      const auto taken = has_scene != idle.end() ? has_scene : std::prev(idle.end());
+      kept_ = std::move(*taken);
+      idle.erase(taken);
     }
   }
   if (is_own)
@@ -25,15 +31,16 @@ CheckerPool::Lease::Lease(CheckerPool& pool, const std::shared_ptr<const Plannin
 
 void CheckerPool::Lease::takeScene(const std::shared_ptr<const PlanningScene>& scene)
 {
-  if (checker_)
-    checker_->setScene(scene);
-  else
-    checker_ = pool_.make_(scene);
+  if (!kept_.checker)
+    kept_.checker = pool_.make_(scene);
+  else if (kept_.scene != scene)
+    kept_.checker->setScene(scene);
+  kept_.scene = scene;
 }
 
 void CheckerPool::Lease::giveBack()
 {
   const std::lock_guard<std::mutex> lock(pool_.mutex_);
-  pool_.idle_.push_back(std::move(checker_));
+  pool_.idle_.push_back(std::move(kept_));
 }
 }  // namespace gpu_planning_scene::core

@@ -67,34 +67,29 @@ PlanService::PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFra
 void PlanService::prepare()
 {
   const std::shared_ptr<const PlanningScene> scene = store_.snapshot().scene;
-  const auto attempt = [](const std::string& what, const std::function<void()>& preparation)
-  {
+  if (scene->robot->groups().empty())
+    return;
+  for (const Group& group : scene->robot->groups())
     try
     {
-      preparation();
+      plugins_.find(configs_.find("", group.name).type, configs_.names());
     }
     catch (const std::exception& error)
     {
-      ROS_DEBUG_STREAM(what << " not prepared: " << error.what());
+      ROS_DEBUG_STREAM("the planner of group '" << group.name << "' is not prepared: " << error.what());
     }
-  };
-  attempt("plans are",
-          [&]
-          {
-            // Another planner may take longer than it is told, and the node is not ready before it ends.
-            const std::shared_ptr<const PlannerFactory> batch_planner = plugins_.find(kBatchPlanner, {});
-            CheckerPool::Lease lease(checkers_, scene);
-            for (const Group& group : scene->robot->groups())
-            {
-              if (group.variables.empty() || !ros::ok())
-                continue;
-              attempt("the planner of group '" + group.name + "' is",
-                      [&] { plugins_.find(configs_.find("", group.name).type, configs_.names()); });
-              attempt("plans of group '" + group.name + "' are",
-                      [&] { rehearsePlans(scene, lease.checker(), group.name, options_.motions, *batch_planner); });
-            }
-            lease.giveBack();
-          });
+  try
+  {
+    // Rehearsals use the batch planner, also for groups that have another one, because others may exceed their time.
+    const std::shared_ptr<const PlannerFactory> batch_planner = plugins_.find(kBatchPlanner, {});
+    CheckerPool::Lease lease(checkers_, scene);
+    rehearsePlans(scene, lease.checker(), options_.motions, *batch_planner, [this] { return stopping_ || !ros::ok(); });
+    lease.giveBack();
+  }
+  catch (const std::exception& error)
+  {
+    ROS_DEBUG_STREAM("plans are not prepared: " << error.what());
+  }
 }
 
 void PlanService::stop()

@@ -1,71 +1,119 @@
 #include "node/planning/rehearsal.h"
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <random>
-#include <utility>
+#include <string>
 #include <vector>
 
 #include <ompl/util/Time.h>
 
+#include "gpu_planning_scene/error.h"
+#include "gpu_planning_scene/planning/group_state_space.h"
 #include "gpu_planning_scene/planning/plan_motion.h"
+#include "planning/space/group_space.h"
+#include "planning/validity/counted_checker.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
 constexpr std::size_t kStates = 512;  // as in a round of the batch planner
-constexpr double kSeconds = 0.03;
 
-/// Rows whose variables outside the group have the values of `base`.
-std::vector<double> randomRows(const RobotModel& robot, const Group& group, const std::vector<double>& base)
+// The plans of a group end after this many checked states. After 20,000, the proofs of the robot would be made, which
+// takes all cores for seconds.
+constexpr std::uint64_t kStatesOfPlans = 5000;
+
+constexpr double kSecondsOfPlan = 0.01;
+constexpr double kSecondsOfPlans = 0.1;
+
+struct Rehearsed
 {
-  const std::size_t width = base.size();
-  std::vector<double> rows(kStates * width);
-  std::vector<double> random(width);
+  std::string group;
+  std::vector<std::vector<double>> free;  // rows
+};
+
+/// Rows whose variables outside the space have the values of the scene's state.
+std::vector<double> randomRows(const PlanningScene& scene, const GroupStateSpace& space)
+{
+  const std::vector<double> base = referenceState(scene);
+  std::vector<double> rows;
+  std::vector<double> random(base.size());
   std::mt19937_64 generator(1);
-  for (auto row = rows.begin(); row != rows.end(); row += static_cast<std::ptrdiff_t>(width))
+  for (std::size_t i = 0; i < kStates; ++i)
   {
-    robot.randomState(generator, base.data(), random.data());
-    std::copy(base.begin(), base.end(), row);
-    for (const int variable : group.variables)
-      row[variable] = random[static_cast<std::size_t>(variable)];
+    scene.robot->randomState(generator, random.data());
+    const std::size_t begin = rows.size();
+    rows.insert(rows.end(), base.begin(), base.end());
+    for (const int variable : space.variables())
+      rows[begin + static_cast<std::size_t>(variable)] = random[static_cast<std::size_t>(variable)];
   }
   return rows;
+}
+
+/// Checks states of a group. Throws Error if it cannot be planned for.
+Rehearsed checkStates(const std::shared_ptr<const PlanningScene>& scene, StateChecker& checker,
+                      const std::string& group)
+{
+  const std::vector<double> rows = randomRows(*scene, GroupStateSpace(scene->robot, group));
+  const BatchResult result = checker.check(rows.data(), kStates, group);
+  // The second check finds the bounds of motions.
+  const JointNeighbourhood unmoved{std::vector<JointTravel>(scene->robot->joints().size()),
+                                   std::vector<std::uint32_t>(kStates)};
+  checker.check(rows.data(), kStates, group, &unmoved);
+  Rehearsed rehearsed{group, {}};
+  const auto width = static_cast<std::ptrdiff_t>(rows.size() / kStates);
+  for (std::size_t i = 0; i < kStates; ++i)
+    if (result.valid[i] != 0)
+    {
+      const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(i) * width;
+      rehearsed.free.emplace_back(begin, begin + width);
+    }
+  return rehearsed;
+}
+/// Plans between free states of a group, until `stop` returns true.
+void planMotions(const std::shared_ptr<const PlanningScene>& scene, const std::shared_ptr<StateChecker>& checker,
+                 const Rehearsed& rehearsed, const MotionCheckerOptions& motions, const PlannerFactory& factory,
+                 const std::function<bool()>& stop)
+{
+  const auto counted = std::make_shared<CountedChecker>(checker);
+  for (std::size_t i = 0; i + 1 < rehearsed.free.size() && counted->states() < kStatesOfPlans && !stop(); i += 2)
+  {
+    PlanningQuery query;
+    query.group = rehearsed.group;
+    query.start = rehearsed.free[i];
+    query.goals = {rehearsed.free[i + 1]};
+    query.seconds = kSecondsOfPlan;
+    query.simplify = false;
+    query.motions = motions;
+    planMotion(scene, counted, query, factory, stop);
+  }
+}
+
+/// Leaves out what a group cannot do; a request says why.
+void attempt(const std::function<void()>& part)
+{
+  try
+  {
+    part();
+  }
+  catch (const Error&)
+  {
+  }
 }
 }  // namespace
 
 void rehearsePlans(const std::shared_ptr<const PlanningScene>& scene, const std::shared_ptr<StateChecker>& checker,
-                   const std::string& group, const MotionCheckerOptions& motions, const PlannerFactory& factory)
+                   const MotionCheckerOptions& motions, const PlannerFactory& factory,
+                   const std::function<bool()>& stop)
 {
-  const RobotModel& robot = *scene->robot;
-  const std::vector<double> base = scene->current_state.empty() ? robot.defaultState() : scene->current_state;
-  const std::vector<double> rows = randomRows(robot, robot.group(group), base);
-  const BatchResult result = checker->check(rows.data(), kStates, group);
-  // The second check finds the bounds of motions, even if no motion is planned below.
-  const JointNeighbourhood unmoved{std::vector<JointTravel>(robot.joints().size()),
-                                   std::vector<std::uint32_t>(kStates)};
-  checker->check(rows.data(), kStates, group, &unmoved);
-
-  std::vector<std::vector<double>> free;
-  for (std::size_t i = 0; i < kStates; ++i)
-    if (result.valid[i] != 0)
-      free.emplace_back(rows.begin() + static_cast<std::ptrdiff_t>(i * base.size()),
-                        rows.begin() + static_cast<std::ptrdiff_t>((i + 1) * base.size()));
+  std::vector<Rehearsed> all;
+  for (const Group& group : scene->robot->groups())
+    if (!stop())
+      attempt([&] { all.push_back(checkStates(scene, *checker, group.name)); });
   const ompl::time::point begin = ompl::time::now();
-  for (std::size_t i = 0; i + 1 < free.size(); i += 2)
-  {
-    PlanningQuery query;
-    query.group = group;
-    query.start = free[i];
-    query.goals = {free[i + 1]};
-    query.seconds = kSeconds - ompl::time::seconds(ompl::time::now() - begin);
-    query.simplify = false;
-    query.motions = motions;
-    if (query.seconds <= 0.0)
-      break;
-    planMotion(scene, checker, query, factory);
-  }
+  const auto has_ended = [&] { return ompl::time::seconds(ompl::time::now() - begin) > kSecondsOfPlans || stop(); };
+  for (const Rehearsed& rehearsed : all)
+    attempt([&] { planMotions(scene, checker, rehearsed, motions, factory, has_ended); });
 }
 }  // namespace gpu_planning_scene::core

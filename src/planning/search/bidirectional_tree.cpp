@@ -48,13 +48,6 @@ constexpr double kLeastProgress = 0.1;
 // are within it, and the last draw is taken.
 constexpr std::size_t kDrawsWithinLength = 128;
 
-// Each fourth draw is from the whole space, the others are near the straight line between two roots. Every state can be
-// drawn, so a search that goes on for ever finds a path if there is one.
-constexpr std::size_t kDrawsPerWholeSpace = 4;
-
-// Multiples of this, without their whole parts, are spread evenly from 0 to 1, however many they are: the golden ratio.
-constexpr double kGoldenRatio = 1.6180339887498949;
-
 // A vertex at an obstacle grows towards random states within so many ranges of it. The paper's radius R.
 constexpr double kDomainOfRanges = 5.0;
 
@@ -195,22 +188,16 @@ double BidirectionalTree::lengthThrough(const ompl::base::State* state) const
   return sum;
 }
 
-/// Draws a random state: with a largest length, if possible one through which a path can be shorter; otherwise mostly
-/// one near the straight line between two roots.
-void BidirectionalTree::sample(double largest_length, ompl::base::State* state)
+/// Draws a random state: within a largest length, if possible, or near a place, if there is one.
+void BidirectionalTree::sample(double largest_length, const std::optional<PlaceBetweenRoots>& near,
+                               ompl::base::State* state)
 {
   sampler_->sampleUniform(state);
-  if (std::isfinite(largest_length))
-  {
-    for (std::size_t i = 1; i < kDrawsWithinLength && lengthThrough(state) >= largest_length; ++i)
-      sampler_->sampleUniform(state);
-    return;
-  }
-  if (++draws_ % kDrawsPerWholeSpace == 0)
-    return;
-  const double multiple = kGoldenRatio * static_cast<double>(draws_);
-  window_.moveInto(roots_[Start][draws_ % roots_[Start].size()], roots_[Goal][draws_ % roots_[Goal].size()],
-                   multiple - std::floor(multiple), state);
+  const bool is_limited = std::isfinite(largest_length);
+  for (std::size_t i = 1; is_limited && i < kDrawsWithinLength && lengthThrough(state) >= largest_length; ++i)
+    sampler_->sampleUniform(state);
+  if (near)
+    window_.moveInto(roots_[Start][near->start], roots_[Goal][near->goal], near->t, state);
 }
 
 /// A motion from the tree towards a random state. `draws` grows by the number of states whose nearest vertex was
@@ -222,10 +209,13 @@ BidirectionalTree::Attempt BidirectionalTree::randomBranch(const MotionValidator
   const Vertex* from = nullptr;
   double distance = 0.0;
   // Within a largest length, the states are near already: more draws made no path shorter.
-  const std::size_t tries = std::isfinite(limits.largest_length) ? 1 : kDrawsWithinDomain;
+  const bool is_limited = std::isfinite(limits.largest_length);
+  const std::size_t tries = is_limited ? 1 : kDrawsWithinDomain;
+  const std::optional<PlaceBetweenRoots> near =
+      is_limited ? std::nullopt : placeOfBranch(branches_++, roots_[Start].size(), roots_[Goal].size());
   for (std::size_t i = 0; i < tries; ++i)
   {
-    sample(limits.largest_length, state);
+    sample(limits.largest_length, near, state);
     from = &trees_[side].nearest(state);
     ++draws;
     distance = information_->distance(from->state, state);

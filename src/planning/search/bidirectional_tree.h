@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <ompl/base/Planner.h>
@@ -95,7 +96,7 @@ class BidirectionalTree
   void addProjected(const MotionValidator& validator, const ompl::base::State* to, bool reaches, double range,
                     std::size_t max_pieces, Attempt& attempt);
   Attempt pieces(const MotionValidator& validator, Connection connection, double range);
-  void sample(double largest_length, ompl::base::State* state);
+  void sample(double largest_length, const std::optional<PlaceBetweenRoots>& near, ompl::base::State* state);
   Attempt randomBranch(const MotionValidator& validator, Side side, const Limits& limits, std::size_t& draws);
   double lengthThrough(const ompl::base::State* state) const;
   const Vertex& addBranch(Side side, const Vertex& root, const std::vector<const ompl::base::State*>& states);
@@ -105,7 +106,7 @@ class BidirectionalTree
   ompl::base::SpaceInformationPtr information_;
   ompl::base::StateSamplerPtr sampler_;
   HalfTurnWindow window_;
-  std::size_t draws_ = 0;  // without those within a largest length
+  std::size_t branches_ = 0;  // random ones, without those within a largest length
   std::array<RrtTree, 2> trees_;
   std::array<std::vector<const ompl::base::State*>, 2> roots_;
   std::size_t rounds_ = 0;

@@ -1,6 +1,7 @@
 #include "planning/search/half_turn_window.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -9,6 +10,27 @@
 
 namespace gpu_planning_scene::core
 {
+namespace
+{
+constexpr std::size_t kBranchesPerWholeSpace = 4;
+
+// The fractional parts of its multiples fill the interval from 0 to 1 evenly.
+constexpr double kGoldenRatio = 1.6180339887498949;
+}  // namespace
+
+std::optional<PlaceBetweenRoots> placeOfBranch(std::size_t number, std::size_t starts, std::size_t goals)
+{
+  constexpr std::size_t kNear = kBranchesPerWholeSpace - 1;
+  const std::size_t in_round = number % kBranchesPerWholeSpace;
+  if (in_round == kNear)
+    return std::nullopt;
+  // Each pair of roots has a round of branches in turn.
+  const std::size_t round = number / kBranchesPerWholeSpace;
+  const std::size_t earlier_rounds = round / (starts * goals);  // of the same pair
+  const double multiple = kGoldenRatio * static_cast<double>(earlier_rounds * kNear + in_round);
+  return PlaceBetweenRoots{round % starts, round / starts % goals, multiple - std::floor(multiple)};
+}
+
 HalfTurnWindow::HalfTurnWindow(ompl::base::StateSpacePtr space) : space_(std::move(space))
 {
   const auto& group_space = dynamic_cast<const GroupStateSpace&>(*space_);

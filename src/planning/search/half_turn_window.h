@@ -1,14 +1,29 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <ompl/base/StateSpace.h>
 
 namespace gpu_planning_scene::core
 {
-/// Moves random states nearer to the straight line between two states. An angle of a joint with limits, drawn from its
-/// whole range, gets the same place in the part of the range that is within half a turn of the line: within half a turn
-/// to both sides, a link has all its directions. Trees that grow towards such states spend less on the ends of wide
+/// A place on the straight line between a root of the start tree and a root of the goal tree.
+struct PlaceBetweenRoots
+{
+  std::size_t start;  // number of the root
+  std::size_t goal;
+  double t;  // from 0 (start, included) to 1 (goal, excluded)
+};
+
+/// The place near which the random branch `number` of a search grows. No value, for each fourth branch: it grows
+/// towards states of the whole space, so a search without end finds a path if there is one. The branches are near all
+/// pairs of roots and all parts of the lines in turn. There must be a root in each tree.
+std::optional<PlaceBetweenRoots> placeOfBranch(std::size_t number, std::size_t starts, std::size_t goals);
+
+/// Moves random states nearer to the straight line between two states. An angle of a revolute joint, drawn from its
+/// whole range, keeps its relative place, but in a part of the range: that within half a turn to both sides of the
+/// line. A turn has all directions of a link, so trees that grow towards such states spend less on the ends of wide
 /// ranges. Other values stay as they are. Const functions are thread-safe.
 class HalfTurnWindow
 {
