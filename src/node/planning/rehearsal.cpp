@@ -27,6 +27,7 @@ constexpr std::uint64_t kStatesOfPlans = 5000;
 constexpr double kSecondsOfPlan = 0.01;
 constexpr double kSecondsOfPlans = 0.1;
 
+/// A group, and random states of it that are free.
 struct Rehearsed
 {
   std::string group;
@@ -71,6 +72,7 @@ Rehearsed checkStates(const std::shared_ptr<const PlanningScene>& scene, StateCh
     }
   return rehearsed;
 }
+
 /// Plans between free states of a group, until `stop` returns true.
 void planMotions(const std::shared_ptr<const PlanningScene>& scene, const std::shared_ptr<StateChecker>& checker,
                  const Rehearsed& rehearsed, const MotionCheckerOptions& motions, const PlannerFactory& factory,
