@@ -17,8 +17,8 @@ CheckerPool::Lease::Lease(CheckerPool& pool, const std::shared_ptr<const Plannin
     if (!idle.empty())
     {
       const auto has_scene =
-          std::find_if(idle.begin(), idle.end(), [&scene](const Kept& kept) { return kept.scene == scene; });
-      const auto taken = has_scene != idle.end() ? has_scene : std::prev(idle.end());
+          std::find_if(idle.rbegin(), idle.rend(), [&scene](const Kept& kept) { return kept.scene == scene; });
+      const auto taken = has_scene != idle.rend() ? std::prev(has_scene.base()) : idle.begin();
       kept_ = std::move(*taken);
       idle.erase(taken);
     }
@@ -40,7 +40,10 @@ void CheckerPool::Lease::takeScene(const std::shared_ptr<const PlanningScene>& s
 
 void CheckerPool::Lease::giveBack()
 {
+  if (!kept_.checker)
+    return;  // it is given back already
   const std::lock_guard<std::mutex> lock(pool_.mutex_);
   pool_.idle_.push_back(std::move(kept_));
+  kept_ = {};
 }
 }  // namespace gpu_planning_scene::core

@@ -27,9 +27,9 @@ class CheckerPool
   {
    public:
     /// Takes a kept checker, if possible one that has `scene` already: it also has what it learned there. Otherwise
-    /// sets its scene, or makes a checker. Throws the errors of setScene and of the function that makes checkers. The
-    /// scene must not change afterwards. `is_own`: the scene is the service's own, so a checker that does not take it
-    /// is an InternalError.
+    /// sets the scene of the one that was used longest ago, or makes a checker. Throws the errors of setScene and of
+    /// the function that makes checkers. The scene must not change afterwards. `is_own`: the scene is the service's
+    /// own, so a checker that does not take it is an InternalError.
     Lease(CheckerPool& pool, const std::shared_ptr<const PlanningScene>& scene, bool is_own = false);
 
     /// Keeps the checker for the next user. Without this call it is dropped, because it may be the cause of an error.
@@ -47,6 +47,6 @@ class CheckerPool
  private:
   const MakeChecker make_;
   std::mutex mutex_;
-  std::vector<Kept> idle_;  // guarded by mutex_; the last one was used last
+  std::vector<Kept> idle_;  // guarded by mutex_; in the order of their last use
 };
 }  // namespace gpu_planning_scene::core

@@ -80,6 +80,21 @@ TEST_F(CheckerPoolTest, PrefersTheCheckerThatHasTheScene)
   EXPECT_EQ(of_hall->scenes.size(), 1U);
 }
 
+TEST_F(CheckerPoolTest, KeepsTheCheckerThatWasUsedLastForItsScene)
+{
+  const RecordingChecker* last = nullptr;
+  {
+    CheckerPool::Lease one(pool_, hall_);
+    CheckerPool::Lease other(pool_, hall_);
+    last = checkerOf(other);
+    one.giveBack();
+    other.giveBack();
+  }
+  EXPECT_EQ(lendOnce(hall_), last);
+  EXPECT_NE(lendOnce(yard_), last);
+  EXPECT_EQ(lendOnce(hall_), last);
+}
+
 TEST_F(CheckerPoolTest, DropsACheckerThatIsNotGivenBack)
 {
   std::weak_ptr<StateChecker> dropped;

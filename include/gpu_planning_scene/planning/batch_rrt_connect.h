@@ -22,8 +22,8 @@ class RrtSearches;
 ///   - The first round checks the straight motions between start and goal states.
 ///   - Then one tree grows motions towards many random states: the smaller one, and now and then the larger one. In the
 ///     next round, the other tree grows towards each of the new vertices, in segments no longer than the range and as
-///     far as they are valid. Three of four branches grow towards states within half a turn of the straight line
-///     between a start and a goal, the others towards states of the whole space.
+///     far as they are valid. Three of four branches grow towards states whose revolute joints are within half a
+///     turn of the straight line between a start and a goal, the others, and all within a largest length, towards any.
 /// After the first round, known paths are tried, if there are any (setKnownPaths): the free motions of the two that
 /// begin and end nearest to the problem's states become branches.
 /// If the trees meet in several places at once, the shortest path is the solution.

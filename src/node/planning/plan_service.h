@@ -35,7 +35,7 @@ class PlanService
   PlanService(ros::NodeHandle& own, const SceneStore& store, OtherFrames others, MakeChecker make_checker,
               const MemoryGuard& memory, Show show, const PlanServiceOptions& options);
 
-  /// Loads the planners that the groups have by default, and rehearses plans of each group, so that the first request
+  /// Loads the planners that the groups have by default, and rehearses plans (rehearsePlans), so that the first request
   /// takes about as long as later ones. What fails here fails again in a request, which then says why.
   void prepare();
 

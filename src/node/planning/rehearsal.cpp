@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <ompl/util/Exception.h>
 #include <ompl/util/Time.h>
 
 #include "gpu_planning_scene/error.h"
@@ -20,9 +21,9 @@ namespace
 {
 constexpr std::size_t kStates = 512;  // as in a round of the batch planner
 
-// The plans of a group end after this many checked states. After 20,000, the proofs of the robot would be made, which
-// takes all cores for seconds.
-constexpr std::uint64_t kStatesOfPlans = 5000;
+// A rehearsal ends after this many checked states. After 20,000, the checker asks for proofs of the robot, and if none
+// are stored, they are made on all cores for seconds.
+constexpr std::uint64_t kMostStates = 12'000;
 
 constexpr double kSecondsOfPlan = 0.01;
 constexpr double kSecondsOfPlans = 0.1;
@@ -73,23 +74,19 @@ Rehearsed checkStates(const std::shared_ptr<const PlanningScene>& scene, StateCh
   return rehearsed;
 }
 
-/// Plans between free states of a group, until `stop` returns true.
-void planMotions(const std::shared_ptr<const PlanningScene>& scene, const std::shared_ptr<StateChecker>& checker,
-                 const Rehearsed& rehearsed, const MotionCheckerOptions& motions, const PlannerFactory& factory,
-                 const std::function<bool()>& stop)
+/// Plans between two free states of a group, until `stop` returns true.
+void planMotionOf(const std::shared_ptr<const PlanningScene>& scene, const std::shared_ptr<StateChecker>& checker,
+                  const Rehearsed& rehearsed, std::size_t number, const MotionCheckerOptions& motions,
+                  const PlannerFactory& factory, const std::function<bool()>& stop)
 {
-  const auto counted = std::make_shared<CountedChecker>(checker);
-  for (std::size_t i = 0; i + 1 < rehearsed.free.size() && counted->states() < kStatesOfPlans && !stop(); i += 2)
-  {
-    PlanningQuery query;
-    query.group = rehearsed.group;
-    query.start = rehearsed.free[i];
-    query.goals = {rehearsed.free[i + 1]};
-    query.seconds = kSecondsOfPlan;
-    query.simplify = false;
-    query.motions = motions;
-    planMotion(scene, counted, query, factory, stop);
-  }
+  PlanningQuery query;
+  query.group = rehearsed.group;
+  query.start = rehearsed.free[2 * number];
+  query.goals = {rehearsed.free[2 * number + 1]};
+  query.seconds = kSecondsOfPlan;
+  query.simplify = false;
+  query.motions = motions;
+  planMotion(scene, checker, query, factory, stop);
 }
 
 /// Leaves out what a group cannot do; a request says why.
@@ -102,6 +99,9 @@ void attempt(const std::function<void()>& part)
   catch (const Error&)
   {
   }
+  catch (const ompl::Exception&)
+  {
+  }
 }
 }  // namespace
 
@@ -109,13 +109,17 @@ void rehearsePlans(const std::shared_ptr<const PlanningScene>& scene, const std:
                    const MotionCheckerOptions& motions, const PlannerFactory& factory,
                    const std::function<bool()>& stop)
 {
+  const auto counted = std::make_shared<CountedChecker>(checker);
+  const auto is_over = [&] { return counted->states() >= kMostStates || stop(); };
   std::vector<Rehearsed> all;
   for (const Group& group : scene->robot->groups())
-    if (!stop())
-      attempt([&] { all.push_back(checkStates(scene, *checker, group.name)); });
+    if (!is_over())
+      attempt([&] { all.push_back(checkStates(scene, *counted, group.name)); });
   const ompl::time::point begin = ompl::time::now();
-  const auto has_ended = [&] { return ompl::time::seconds(ompl::time::now() - begin) > kSecondsOfPlans || stop(); };
-  for (const Rehearsed& rehearsed : all)
-    attempt([&] { planMotions(scene, checker, rehearsed, motions, factory, has_ended); });
+  const auto has_ended = [&] { return ompl::time::seconds(ompl::time::now() - begin) > kSecondsOfPlans || is_over(); };
+  for (std::size_t number = 0; number < kStates / 2; ++number)
+    for (const Rehearsed& rehearsed : all)
+      if (2 * number + 1 < rehearsed.free.size() && !has_ended())
+        attempt([&] { planMotionOf(scene, counted, rehearsed, number, motions, factory, has_ended); });
 }
 }  // namespace gpu_planning_scene::core

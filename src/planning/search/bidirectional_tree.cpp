@@ -212,7 +212,7 @@ BidirectionalTree::Attempt BidirectionalTree::randomBranch(const MotionValidator
   const bool is_limited = std::isfinite(limits.largest_length);
   const std::size_t tries = is_limited ? 1 : kDrawsWithinDomain;
   const std::optional<PlaceBetweenRoots> near =
-      is_limited ? std::nullopt : placeOfBranch(branches_++, roots_[Start].size(), roots_[Goal].size());
+      is_limited ? std::nullopt : placeOfBranch(branches_[side]++, roots_[Start].size(), roots_[Goal].size());
   for (std::size_t i = 0; i < tries; ++i)
   {
     sample(limits.largest_length, near, state);

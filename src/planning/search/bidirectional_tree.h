@@ -106,7 +106,7 @@ class BidirectionalTree
   ompl::base::SpaceInformationPtr information_;
   ompl::base::StateSamplerPtr sampler_;
   HalfTurnWindow window_;
-  std::size_t branches_ = 0;  // random ones, without those within a largest length
+  std::array<std::size_t, 2> branches_{};  // random ones of each tree, without those within a largest length
   std::array<RrtTree, 2> trees_;
   std::array<std::vector<const ompl::base::State*>, 2> roots_;
   std::size_t rounds_ = 0;

@@ -16,7 +16,7 @@ struct PlaceBetweenRoots
   double t;  // from 0 (start, included) to 1 (goal, excluded)
 };
 
-/// The place near which the random branch `number` of a search grows. No value, for each fourth branch: it grows
+/// The place near which the random branch `number` of a tree grows. No value, for each fourth branch: it grows
 /// towards states of the whole space, so a search without end finds a path if there is one. The branches are near all
 /// pairs of roots and all parts of the lines in turn. There must be a root in each tree.
 std::optional<PlaceBetweenRoots> placeOfBranch(std::size_t number, std::size_t starts, std::size_t goals);

@@ -17,46 +17,59 @@ namespace
 {
 namespace ob = ompl::base;
 
-/// The length of the straight motion from start to goal, of each plan.
-using Lengths = std::vector<double>;
+struct Rehearsed
+{
+  std::string group;
+  double length;  // of the straight motion from start to goal
+};
 
-/// A planner that finds nothing.
+/// A planner that checks the start some times and finds nothing.
 class Finder : public ob::Planner
 {
  public:
-  Finder(const ob::SpaceInformationPtr& information, Lengths& lengths)
-    : ob::Planner(information, "Finder"), lengths_(lengths)
+  Finder(const ob::SpaceInformationPtr& information, std::vector<Rehearsed>& plans, int checks)
+    : ob::Planner(information, "Finder"), plans_(plans), checks_(checks)
   {
   }
 
   ob::PlannerStatus solve(const ob::PlannerTerminationCondition& /*ptc*/) override
   {
-    lengths_.push_back(si_->distance(pis_.nextStart(), pis_.nextGoal()));
+    const ob::State* const start = pis_.nextStart();
+    plans_.push_back({si_->getStateSpace()->getName(), si_->distance(start, pis_.nextGoal())});
+    for (int i = 0; i < checks_; ++i)
+      EXPECT_TRUE(si_->isValid(start));
     return ob::PlannerStatus::TIMEOUT;
   }
 
  private:
-  Lengths& lengths_;
+  std::vector<Rehearsed>& plans_;
+  int checks_;
 };
 
 class FinderFactory : public PlannerFactory
 {
  public:
+  explicit FinderFactory(int checks) : checks_(checks) {}
+
   ob::PlannerPtr create(const ob::SpaceInformationPtr& information) const override
   {
-    return std::make_shared<Finder>(information, lengths);
+    return std::make_shared<Finder>(information, plans, checks_);
   }
 
-  mutable Lengths lengths;
+  mutable std::vector<Rehearsed> plans;
+
+ private:
+  int checks_;
 };
 
-/// The plans of a rehearsal in a scene.
-Lengths rehearse(PlanningScene scene, bool stop = false)
+/// The plans of a rehearsal in a scene. `checks`: of each plan. `most`: the node stops after so many plans.
+std::vector<Rehearsed> rehearse(PlanningScene scene, int checks = 0, std::size_t most = 1000)
 {
   const auto shared = std::make_shared<const PlanningScene>(std::move(scene));
-  const FinderFactory factory;
-  rehearsePlans(shared, std::make_shared<CpuChecker>(shared), {}, factory, [stop] { return stop; });
-  return factory.lengths;
+  const FinderFactory factory(checks);
+  rehearsePlans(shared, std::make_shared<CpuChecker>(shared), {}, factory,
+                [&] { return factory.plans.size() >= most; });
+  return factory.plans;
 }
 
 PlanningScene sliderWith(const std::string& srdf)
@@ -65,12 +78,11 @@ PlanningScene sliderWith(const std::string& srdf)
   return PlanningScene(RobotModel::fromXml(sliderUrdf(), whole.insert(whole.find("</robot>"), srdf), {}));
 }
 
-TEST(Rehearsal, PlansBetweenDifferentStates)
+TEST(Rehearsal, PlansForEachGroupInTurn)
 {
-  const Lengths lengths = rehearse(sliderAndWall());
-  ASSERT_FALSE(lengths.empty());
-  for (const double length : lengths)
-    EXPECT_GT(length, 0.0);
+  const std::vector<Rehearsed> plans = rehearse(sliderAndWall());
+  ASSERT_GE(plans.size(), 2U);
+  EXPECT_NE(plans[0].group, plans[1].group);
 }
 
 TEST(Rehearsal, MovesOnlyTheGroup)
@@ -88,14 +100,13 @@ TEST(Rehearsal, KeepsPassiveJoints)
 
 TEST(Rehearsal, MovesBases)
 {
-  const Lengths lengths = rehearse(PlanningScene(
+  const std::vector<Rehearsed> plans = rehearse(PlanningScene(
       RobotModel::fromXml(sliderUrdf(),
                           "<robot name='slider'><virtual_joint name='floor' type='planar' parent_frame='hall' "
                           "child_link='rail'/><group name='base'><joint name='floor'/></group></robot>",
                           {})));
-  ASSERT_FALSE(lengths.empty());
-  for (const double length : lengths)
-    EXPECT_GT(length, 0.0);
+  ASSERT_FALSE(plans.empty());
+  EXPECT_GT(plans.front().length, 0.0);
 }
 
 TEST(Rehearsal, LeavesOutGroupsThatCannotBePlannedFor)
@@ -105,7 +116,14 @@ TEST(Rehearsal, LeavesOutGroupsThatCannotBePlannedFor)
 
 TEST(Rehearsal, EndsWhenTheNodeStops)
 {
-  EXPECT_TRUE(rehearse(sliderAndWall(), true).empty());
+  EXPECT_TRUE(rehearse(sliderAndWall(), 0, 0).empty());
+  EXPECT_EQ(rehearse(sliderAndWall(), 0, 1).size(), 1U);
+}
+
+TEST(Rehearsal, EndsBeforeProofsAreMade)
+{
+  constexpr int kChecks = 5000;
+  EXPECT_LE(rehearse(sliderAndWall(), kChecks).size(), 2U);  // 10,000 states, and those before the plans
 }
 }  // namespace
 }  // namespace gpu_planning_scene::core
