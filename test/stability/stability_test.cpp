@@ -30,7 +30,7 @@ void expectFailure(const ShaderFolder& shaders, const std::string& family)
 
 TEST(Stability, NoAnswerIsWrongInAnyFamily)
 {
-  const ProgramOutput output = runStability({"--quick", "--cases", "4"});
+  const ProgramOutput output = runStability({"--quick", "--cases", repetitions("2", "20")});
   EXPECT_EQ(output.exit_code, 0) << output.err;
   EXPECT_NE(output.out.find("| random rigid motions |"), std::string::npos) << output.out;
 }
@@ -39,7 +39,7 @@ TEST(Stability, NoAnswerIsWrongInAnyFamily)
 TEST(Stability, NoAnswerIsWrongInDamagedMeshes)
 {
   const ProgramOutput output =
-      runStability({"--family", "leaky", "--cases", repetitions("64", "10000"), "--proofs", repetitions("4", "1000")});
+      runStability({"--family", "leaky", "--cases", repetitions("32", "10000"), "--proofs", repetitions("2", "1000")});
   EXPECT_EQ(output.exit_code, 0) << output.err;
 }
 

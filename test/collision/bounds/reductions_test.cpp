@@ -117,7 +117,7 @@ class ReductionsIn : public testing::TestWithParam<const char*>
 
 TEST_P(ReductionsIn, ChangeNoAnswerOfTheCpu)
 {
-  constexpr std::size_t kStates = repetitions(30, 120);
+  constexpr std::size_t kStates = repetitions(15, 120);
   const std::vector<double> states = statesInAndOut(*scene_->robot, kStates);
   const std::map<std::string, std::vector<std::uint8_t>> whole = validWithAllPairs(states);
   for (const Setting& setting : kEach)
@@ -131,7 +131,7 @@ TEST_P(ReductionsIn, ChangeNoAnswerOfTheCpu)
 
 TEST_P(ReductionsIn, ChangeNoAnswerOfTheGpu)
 {
-  constexpr std::size_t kStates = repetitions(30, 120);
+  constexpr std::size_t kStates = repetitions(15, 120);
   const std::vector<double> states = statesInAndOut(*scene_->robot, kStates);
   const std::map<std::string, std::vector<std::uint8_t>> whole = validWithAllPairs(states);
   for (const Setting& setting : {kNone, kDirect, kAll})

@@ -19,7 +19,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kComparedStates = repetitions(250, 2000);
+constexpr std::size_t kComparedStates = repetitions(150, 2000);
 
 /// FCL with the scene's problem. It is made once per process, because building FCL's trees takes a while.
 FclPeer& fclPeerOf(const TestScene& scene)

@@ -46,7 +46,7 @@ TEST_P(Invariance, ValidIsTheSameForTraversalsBatchSizesAndOrders)
   const TestScene& scene = testScene(GetParam());
   keepTrees(*scene.scene);
   // All batch sizes check the same states. Small batches check fewer of them, to save time.
-  constexpr std::size_t kStates = repetitions(1536, 16384);
+  constexpr std::size_t kStates = repetitions(1100, 16384);
   const std::vector<double> states = scene.randomStates(kStates, kSeed);
   const std::size_t width = scene.scene->robot->variables().size();
   BatchChecker reference(scene.scene, with(Traversal::WorkQueue));
@@ -54,7 +54,7 @@ TEST_P(Invariance, ValidIsTheSameForTraversalsBatchSizesAndOrders)
   for (const Traversal traversal : {Traversal::BreadthFirst, Traversal::WorkQueue})
     for (const std::size_t batch : {std::size_t{1}, std::size_t{7}, std::size_t{64}, std::size_t{1024}, kStates})
     {
-      const std::size_t count = std::min<std::size_t>(kStates, batch * repetitions<std::size_t>(16, 64));
+      const std::size_t count = std::min<std::size_t>(kStates, batch * repetitions<std::size_t>(8, 64));
       BatchChecker checker(scene.scene, with(traversal, batch));
       const BatchResult result = checker.check(states.data(), count);
       EXPECT_TRUE(std::equal(result.valid.begin(), result.valid.end(), valid.begin()))

@@ -25,7 +25,7 @@ namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::size_t kStatesOfARobot = repetitions(100, 500);
+constexpr std::size_t kStatesOfARobot = repetitions(60, 500);
 
 class RandomRobots : public testing::TestWithParam<std::uint64_t>
 {

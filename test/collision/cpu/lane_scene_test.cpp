@@ -99,7 +99,7 @@ std::size_t compare(const ProvenScene& proven, const lanes::NamedKernel& kernel,
 
 TEST_P(ProvenScenes, ProofsHoldInRandomStatesWithEachInstructionSet)
 {
-  constexpr std::size_t kStates = repetitions(2000, 20000);
+  constexpr std::size_t kStates = repetitions(1000, 20000);
   const std::vector<double> states = proven_->scene.randomStates(kStates, kSeed);
   const std::vector<InstancePairs> colliding = collidingPairs(*proven_, states);
   for (const lanes::NamedKernel& kernel : lanes::availableKernels())
@@ -112,7 +112,7 @@ TEST_P(ProvenScenes, ProofsHoldInRandomStatesWithEachInstructionSet)
 
 TEST_P(ProvenScenes, PairsThatAreProvenApartKeepTheirMarginsIfThereAreAny)
 {
-  constexpr std::size_t kStates = repetitions(2000, 20000);
+  constexpr std::size_t kStates = repetitions(1000, 20000);
   constexpr double kLargestMargin = 0.05;  // metres
   const std::vector<double> states = proven_->scene.randomStates(kStates, kSeed + 1);
   const std::size_t bodies = proven_->problem->robot.size();
@@ -337,7 +337,7 @@ class MovingBases : public testing::TestWithParam<TestScene (*)()>
 
 TEST_P(MovingBases, ProofsHoldWhileTheBaseRestsAndMoves)
 {
-  constexpr std::size_t kStates = repetitions(2000, 20000);
+  constexpr std::size_t kStates = repetitions(1000, 20000);
   const ProvenScene proven = prove(GetParam()());
   ASSERT_GT(proven.lanes->model().base.frames, 0U);
   const std::vector<double> states = withMovesOfTheBase(proven, kStates);

@@ -11,13 +11,14 @@
 #include "gpu/egl_context.h"
 #include "gpu/program.h"
 #include "shader_constants.h"
+#include "support/repetitions.h"
 #include "support/seed.h"
 
 namespace gpu_planning_scene::core
 {
 namespace
 {
-constexpr std::uint32_t kStatesOfStep = 2000;
+constexpr std::uint32_t kStatesOfStep = repetitions(800U, 2000U);
 
 /// A pair in a state.
 using OpenPair = std::pair<std::uint32_t, std::uint32_t>;

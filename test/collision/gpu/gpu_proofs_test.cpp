@@ -127,21 +127,21 @@ class GpuProofsOfScenes : public testing::TestWithParam<const char*>
 
 TEST_P(GpuProofsOfScenes, DecideMostPairsOfRandomStates)
 {
-  compare(proven_->scene.randomStates(repetitions(1000, 40'000), kSeed), nullptr);
+  compare(proven_->scene.randomStates(repetitions(400, 40'000), kSeed), nullptr);
   std::cout << "traversed pairs: " << traversedShare() << " of those without proofs" << std::endl;
   EXPECT_LT(traversedShare(), 0.5);
 }
 
 TEST_P(GpuProofsOfScenes, DecideNoPairWronglyNearContact)
 {
-  compare(nearContactStates(proven_->scene, repetitions(100, 1000), kSeed + 1), nullptr);
+  compare(nearContactStates(proven_->scene, repetitions(60, 1000), kSeed + 1), nullptr);
 }
 
 TEST_P(GpuProofsOfScenes, KeepTheMarginsOfPairs)
 {
   constexpr double kLargestMargin = 0.05;  // metres
   constexpr std::uint32_t kRows = 7;
-  const std::size_t count = repetitions(500, 10'000);
+  const std::size_t count = repetitions(250, 10'000);
   std::mt19937_64 generator(kSeed + 2);
   std::uniform_real_distribution<double> distances(0.0, kLargestMargin);
   Margins margins;

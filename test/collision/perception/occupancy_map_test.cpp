@@ -13,6 +13,7 @@
 #include "support/depth_camera.h"
 #include "support/fcl_peer.h"
 #include "support/moving_shape.h"
+#include "support/repetitions.h"
 #include "support/test_scenes.h"
 
 namespace gpu_planning_scene::core
@@ -130,9 +131,10 @@ class Cell
   {
     const Isometry3d pose = cameraPose({1.9, 0.6, 1.7}, {0.2, 0.0, 0.4});
     const DepthImage image = depthImageOf(truth_, state_.data(), kCamera, pose);
+    constexpr int kPixels = repetitions(11, 7);  // between two points
     std::size_t count = 0;
-    for (int y = 3; y < kCamera.height; y += 7)
-      for (int x = 3; x < kCamera.width; x += 7)
+    for (int y = 3; y < kCamera.height; y += kPixels)
+      for (int x = 3; x < kCamera.width; x += kPixels)
       {
         const Vector3d point = pose * pointOf(image, x, y);
         if (!point.allFinite() || distanceFromWorld(truth_, point) > 1e-4)

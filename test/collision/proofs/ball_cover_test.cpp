@@ -9,6 +9,7 @@
 #include "collision/geometry/triangle_pair.h"
 #include "collision/proofs/ball_cover.h"
 #include "collision/proofs/shape_samples.h"
+#include "support/repetitions.h"
 #include "support/seed.h"
 #include "support/test_scenes.h"
 
@@ -125,7 +126,7 @@ TEST_F(BallCoverTest, EachPointOfTheSurfaceIsInABallOfEachLevel)
         for (const auto& level : cover.levels)
         {
           ASSERT_FALSE(level.empty());
-          for (int i = 0; i < 2000; ++i)
+          for (int i = 0; i < repetitions(700, 20000); ++i)
           {
             const Triangle& triangle = tree.triangles[generator_() % tree.triangles.size()];
             // The true surface of a curved primitive is up to the sagitta away from its triangles.

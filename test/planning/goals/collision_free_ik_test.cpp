@@ -84,7 +84,7 @@ TEST(CollisionFreeIk, RealArmsReachThePosesOfFreeStates)
     std::vector<Isometry3d> poses;
     std::vector<KinematicConstraints> goals;
     for (const auto& state :
-         freeStates(arm, checker, given, static_cast<std::size_t>(repetitions(50, 2000)), generator))
+         freeStates(arm, checker, given, static_cast<std::size_t>(repetitions(30, 2000)), generator))
     {
       poses.push_back(linkPose(*arm.robot, tip, state.data()));
       goals.push_back(poseGoal(tip, poses.back()));

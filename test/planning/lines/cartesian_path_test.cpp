@@ -17,6 +17,7 @@
 #include "model/model_testing.h"
 #include "scene/frame.h"
 #include "support/arms.h"
+#include "support/repetitions.h"
 #include "support/seed.h"
 #include "support/states_along.h"
 
@@ -120,7 +121,7 @@ TEST_F(Lines, AreFollowedWithinTheDeviationAndTheJumpBoundAndWithoutCollision)
   {
     use(arm);
     std::size_t whole = 0;
-    for (int i = 0; i < 40; ++i)
+    for (int i = 0; i < repetitions(20, 400); ++i)
     {
       drawStart();
       Eigen::Isometry3d goal = start();
@@ -297,7 +298,7 @@ TEST_F(Lines, WithoutLengthTurnTheFrameWithinTheDeviation)
     use(arm);
     query_.check_collisions = false;
     std::size_t whole = 0;
-    for (int i = 0; i < 60; ++i)
+    for (int i = 0; i < repetitions(30, 600); ++i)
     {
       drawStart();
       const Eigen::Vector3d axis = randomVector(1.0);

@@ -589,6 +589,6 @@ TEST_P(RandomPaths, OfAPandaKeepAllPromises)
   expectPromisesForRandomPaths(panda(), "panda_arm", GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomPaths, testing::Range<std::uint64_t>(1, repetitions(5, 100)));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomPaths, testing::Range<std::uint64_t>(1, repetitions(4, 100)));
 }  // namespace
 }  // namespace gpu_planning_scene::core

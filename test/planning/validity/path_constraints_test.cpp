@@ -11,6 +11,7 @@
 #include "gpu_planning_scene/interpolation.h"
 #include "scene/frame.h"
 #include "support/arms.h"
+#include "support/repetitions.h"
 #include "support/seed.h"
 
 namespace gpu_planning_scene::core
@@ -64,7 +65,7 @@ class PathConstraintsOfArms : public testing::TestWithParam<Kind>
 
 TEST_P(PathConstraintsOfArms, AreNeverProvenForAMotionThatViolatesThem)
 {
-  constexpr int kMotions = 300;
+  constexpr int kMotions = repetitions(120, 3000);
   constexpr int kSamples = 400;
   const std::vector<Arm>& arms = realArms();
   if (arms.empty())
