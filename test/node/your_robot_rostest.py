@@ -12,7 +12,7 @@ import unittest
 import rospy
 import rostest
 
-from documents_rostest import examples
+from documents_rostest import ROOT, examples
 
 
 # The folder of the built programs is in the workspace that the test runs in.
@@ -30,13 +30,14 @@ class YourRobot(unittest.TestCase):
             .replace("source build/demo/devel/setup.bash", "true")
             .replace("$PWD/build/demo/devel/lib/gpu_planning_scene", PROGRAMS)
             .replace("$PWD/build/robots/urdf/KR5", os.path.dirname(urdf))
+            .replace("$(rospack find gpu_planning_scene)", ROOT)
             for block in examples(os.path.join("docs", "your_robot.md"))
             if block
         ]
-        self.assertEqual(17, len(blocks))
-        self.variables, self.generate, limits, time_limits, scene, self.first_verdict = blocks[:6]
-        self.launch, self.report, self.set_state, self.collides_now, self.carry, self.client = blocks[6:12]
-        self.client_answer, self.plan, self.picture, self.check_many, self.colliding_state = blocks[12:]
+        self.assertEqual(18, len(blocks))
+        self.variables, self.arm, self.generate, limits, time_limits, scene, self.first_verdict = blocks[:7]
+        self.launch, self.report, self.set_state, self.collides_now, self.carry, self.client = blocks[7:13]
+        self.client_answer, self.plan, self.picture, self.check_many, self.colliding_state = blocks[13:]
         with open(os.path.join(self.folder.name, "my_scene.yaml"), "w", encoding="utf-8") as file:
             file.write(scene)
         self.limits = os.path.join(self.folder.name, "limits.yaml")
@@ -54,6 +55,10 @@ class YourRobot(unittest.TestCase):
         return answer.stdout + answer.stderr
 
     def test_each_step_of_the_page_works(self):
+        answer = self.run_block(self.arm + '\n"$programs/check_states" --urdf "$urdf" --srdf "$srdf" --package '
+                                '"$package_name=$package_folder" --scene "${srdf%.srdf}_scene.yaml" --random 100 '
+                                '--out /dev/null')
+        self.assertIn("100 states", answer)
         self.assertIn("planning groups: palm\n", self.run_block(self.generate))
         self.assertRegex(self.run_block(self.first_verdict), r"\n0,(wrist|palm),box\n")
         self.assertIn("shoulder_pitch (-1.5 to 1.5)", self.run_block(self.first_verdict + " --planning " + self.limits))

@@ -35,14 +35,15 @@ class DevicePoolTest : public testing::Test
   /// `core_rate` states per second.
   void learn(std::chrono::milliseconds latency, double core_rate)
   {
-    constexpr std::size_t kStates = 10'000;
-    Batch batch(kStates, std::nullopt, 1);
-    batch.setDeviceRows(std::make_unique<const DeviceRows>(nullptr, kStates, 0, [](std::size_t) { return true; }));
+    constexpr std::size_t kStatesOfCall = 10'000;
+    Batch batch(kStatesOfCall, std::nullopt, 1);
+    batch.setDeviceRows(
+        std::make_unique<const DeviceRows>(nullptr, kStatesOfCall, 0, [](std::size_t) { return true; }));
     batch.join(0);
     const StateRange part = batch.takeForDevice(0, 4'000, 1.0);
     std::this_thread::sleep_for(latency);
     batch.endAnswer(batch.beginAnswer(0, part), {});
-    pool_.learn(batch, "", kStates - part.count, static_cast<double>(kStates - part.count) / core_rate);
+    pool_.learn(batch, "", kStatesOfCall - part.count, static_cast<double>(kStatesOfCall - part.count) / core_rate);
   }
 
   /// A batch in which the device takes no part.
