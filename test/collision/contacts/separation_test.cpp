@@ -119,7 +119,7 @@ TEST(Separation, OfEachKindOfShapesEndsTheCollisionAtAPointOfBoth)
   for (const Kind& held : kinds())
     for (const Kind& object : kinds())
     {
-      expectSeparation(held, object, repetitions(1, 50), repetitions(4, 200));
+      expectSeparation(held, object, repetitions(1, 50), repetitions(6, 200));
       if (HasFatalFailure())
         return;
     }
