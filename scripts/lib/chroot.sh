@@ -32,16 +32,10 @@ make_chroot()
   local release=$1 root=$2 packages=$3
   rm -rf --one-file-system "$root"
   mkdir -p "$(dirname "$root")"
-  local known=/usr/share/debootstrap
   # A release that this debootstrap does not know is one of Ubuntu, which are all made by the same script.
-  if [[ ! -e "$known/scripts/$release" ]]; then
-    known="$root.debootstrap"
-    rm -rf "$known"
-    cp -a /usr/share/debootstrap "$known"
-    ln -s gutsy "$known/scripts/$release"
-  fi
-  DEBOOTSTRAP_DIR="$known" debootstrap --variant=minbase --include="$packages" "$release" "$root"
-  rm -rf "$root.debootstrap"
+  local script="/usr/share/debootstrap/scripts/$release"
+  [[ -e "$script" ]] || script=/usr/share/debootstrap/scripts/gutsy
+  debootstrap --variant=minbase --include="$packages" "$release" "$root" "" "$script"
   mount --rbind /dev "$root/dev"
   mount --rbind /sys "$root/sys"
   mount -t proc proc "$root/proc"
