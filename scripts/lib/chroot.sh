@@ -32,10 +32,7 @@ make_chroot()
   local release=$1 root=$2 packages=$3
   rm -rf --one-file-system "$root"
   mkdir -p "$(dirname "$root")"
-  # A release that this debootstrap does not know is one of Ubuntu, which are all made by the same script.
-  local script="/usr/share/debootstrap/scripts/$release"
-  [[ -e "$script" ]] || script=/usr/share/debootstrap/scripts/gutsy
-  debootstrap --variant=minbase --include="$packages" "$release" "$root" "" "$script"
+  debootstrap --variant=minbase --include="$packages" "$release" "$root"
   mount --rbind /dev "$root/dev"
   mount --rbind /sys "$root/sys"
   mount -t proc proc "$root/proc"
