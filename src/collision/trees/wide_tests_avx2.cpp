@@ -3,12 +3,20 @@
 #include "collision/trees/wide_tests.h"
 
 #ifdef __x86_64__
+#ifdef __clang__
+#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
+#else
 #pragma GCC push_options
 #pragma GCC target("avx2,fma")
+#endif
 #define GPS_AVX
 #define GPS_OVERLAP_TEST overlapAvx2
 #define GPS_NEAR_TRIANGLES_TEST nearTrianglesAvx2
 #include "collision/trees/wide_overlap_body.h"
 #include "collision/trees/wide_triangles_body.h"
+#ifdef __clang__
+#pragma clang attribute pop
+#else
 #pragma GCC pop_options
+#endif
 #endif
