@@ -1,22 +1,15 @@
-// The tests of wide trees for AVX2. The code between the pragmas must not call functions that other files define
-// inline: the linker may take this file's copy for all of them, and machines without AVX2 would stop there.
+// The tests of wide trees for AVX2. The code between GPS_BEGIN_TARGET and GPS_END_TARGET must not call functions that
+// other files define inline: the linker may take this file's copy for all of them, and machines without AVX2 would stop
+// there.
+#include "base/instruction_sets.h"
 #include "collision/trees/wide_tests.h"
 
 #ifdef __x86_64__
-#ifdef __clang__
-#pragma clang attribute push(__attribute__((target("avx2,fma"))), apply_to = function)
-#else
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
-#endif
+GPS_BEGIN_TARGET("avx2,fma")
 #define GPS_AVX
 #define GPS_OVERLAP_TEST overlapAvx2
 #define GPS_NEAR_TRIANGLES_TEST nearTrianglesAvx2
 #include "collision/trees/wide_overlap_body.h"
 #include "collision/trees/wide_triangles_body.h"
-#ifdef __clang__
-#pragma clang attribute pop
-#else
-#pragma GCC pop_options
-#endif
+GPS_END_TARGET
 #endif

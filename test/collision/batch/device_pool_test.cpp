@@ -35,15 +35,15 @@ class DevicePoolTest : public testing::Test
   /// `core_rate` states per second.
   void learn(std::chrono::milliseconds latency, double core_rate)
   {
-    constexpr std::size_t kStatesOfCall = 10'000;
-    Batch batch(kStatesOfCall, std::nullopt, 1);
+    constexpr std::size_t kStatesOfBatch = 10'000;
+    Batch batch(kStatesOfBatch, std::nullopt, 1);
     batch.setDeviceRows(
-        std::make_unique<const DeviceRows>(nullptr, kStatesOfCall, 0, [](std::size_t) { return true; }));
+        std::make_unique<const DeviceRows>(nullptr, kStatesOfBatch, 0, [](std::size_t) { return true; }));
     batch.join(0);
     const StateRange part = batch.takeForDevice(0, 4'000, 1.0);
     std::this_thread::sleep_for(latency);
     batch.endAnswer(batch.beginAnswer(0, part), {});
-    pool_.learn(batch, "", kStatesOfCall - part.count, static_cast<double>(kStatesOfCall - part.count) / core_rate);
+    pool_.learn(batch, "", kStatesOfBatch - part.count, static_cast<double>(kStatesOfBatch - part.count) / core_rate);
   }
 
   /// A batch in which the device takes no part.
