@@ -15,4 +15,5 @@ run("no build with the thread sanitizer" ${CMAKE_COMMAND} -S ${SOURCE} -B ${FOLD
   "-DCMAKE_CXX_FLAGS_DEBUG=-fsanitize=thread -O1 -finline-small-functions -g1")
 run("it does not build" ${CMAKE_COMMAND} --build ${FOLDER} --target concurrency_test)
 run("data races" ${CMAKE_COMMAND} -E env
-  "TSAN_OPTIONS=suppressions=${SOURCE}/test/support/tsan.supp" ${FOLDER}/test/concurrency/concurrency_test)
+  "TSAN_OPTIONS=suppressions=${SOURCE}/test/support/tsan.supp" XDG_CACHE_HOME=${FOLDER}/cache
+  ${FOLDER}/test/concurrency/concurrency_test)

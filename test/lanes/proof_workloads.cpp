@@ -55,7 +55,8 @@ std::shared_ptr<const PlanningScene> turningBoxes()
   return scene;
 }
 
-/// A scene with its proofs, made once. `limit`: of the values of all joints, from the negative to the positive.
+/// A scene with its proofs, made now or loaded from the user's cache. `limit`: of the values of all joints, from the
+/// negative to the positive.
 struct Proven
 {
   Proven(std::shared_ptr<const PlanningScene> of, double largest, bool exact_covers)
@@ -66,8 +67,8 @@ struct Proven
   {
     RobotProver prover;
     prover.prove(
-        *scene->robot, *problem, forest.forest(), ProofCache(), [this](RobotProofs made) { proofs = std::move(made); },
-        [] { return false; });
+        *scene->robot, *problem, forest.forest(), ProofCache::ofUser(),
+        [this](RobotProofs made) { proofs = std::move(made); }, [] { return false; });
     if (exact_covers)
       proofs.covers = exactCovers(*problem, *scene->robot);
   }

@@ -37,7 +37,6 @@ class CacheOfATest
   }
   ~CacheOfATest()
   {
-    setenv("GPU_PLANNING_SCENE_PROOF_CACHE", "off", 1);
     setenv("XDG_CACHE_HOME", before_.c_str(), 1);
     fs::remove_all(home_);
   }

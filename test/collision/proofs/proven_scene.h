@@ -31,7 +31,7 @@ struct ProvenScene
   }
 };
 
-/// A scene with proofs that are made now.
+/// A scene with its proofs, made now or loaded from the user's cache.
 inline ProvenScene prove(const TestScene& scene)
 {
   ProvenScene made;
@@ -41,13 +41,14 @@ inline ProvenScene prove(const TestScene& scene)
   RobotProver prover;
   const auto publish = [&made](RobotProofs proofs)
   { made.proofs = std::make_shared<const RobotProofs>(std::move(proofs)); };
-  prover.prove(*scene.scene->robot, *made.problem, made.forest.forest(), ProofCache(), publish, [] { return false; });
+  prover.prove(*scene.scene->robot, *made.problem, made.forest.forest(), ProofCache::ofUser(), publish,
+               [] { return false; });
   made.lanes =
       std::make_unique<const LaneScene>(*scene.scene->robot, *made.problem, *made.forest.forest(), made.proofs);
   return made;
 }
 
-/// A scene by its name, with the proofs made once per process.
+/// A scene by its name, with its proofs. They are made once per process.
 inline const ProvenScene& provenScene(const std::string& name)
 {
   static std::map<std::string, ProvenScene> kept;
