@@ -36,7 +36,8 @@ configure_and_build()
   progress=$!
   started+=("$progress")
   disown  # otherwise bash reports its end
-  # Ninja would start two compilers more than there are processors, and they would take 10 % longer.
+  # By itself, Ninja starts two compilers more than there are processors. On two processors, the build then takes 10 %
+  # longer.
   run cmake --build "$folder" --parallel "$(nproc)" "${only[@]}" >> "$log" 2>&1 || built=$?
   stop "$progress"
   if ((built != 0)); then

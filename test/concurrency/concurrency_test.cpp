@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -114,6 +115,7 @@ TEST(Concurrency, ChecksOfTheCpuRunSideBySide)
 /// So many states that proofs are made while the threads check. A check may begin with them and another one without.
 TEST(Concurrency, AnswersOfTheCpuDoNotDependOnChecksBesideThem)
 {
+  setenv("GPU_PLANNING_SCENE_PROOF_CACHE", "off", 1);
   const Scenes scenes;
   CpuChecker checker(scenes.of(1));
   std::atomic<int> wrong{0};

@@ -13,8 +13,7 @@ run("no build with the thread sanitizer" ${CMAKE_COMMAND} -S ${SOURCE} -B ${FOLD
   -DGPU_PLANNING_SCENE_ROS=OFF -DGPU_PLANNING_SCENE_BENCH=OFF -DCMAKE_BUILD_TYPE=Debug
   -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=20 -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}
   "-DCMAKE_CXX_FLAGS_DEBUG=-fsanitize=thread -O1 -finline-small-functions -g1")
-include(ProcessorCount)
-ProcessorCount(processors)
+cmake_host_system_information(RESULT processors QUERY NUMBER_OF_LOGICAL_CORES)
 run("it does not build" ${CMAKE_COMMAND} --build ${FOLDER} --parallel ${processors} --target concurrency_test)
 run("data races" ${CMAKE_COMMAND} -E env
   "TSAN_OPTIONS=suppressions=${SOURCE}/test/support/tsan.supp" XDG_CACHE_HOME=${FOLDER}/cache

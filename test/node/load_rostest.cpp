@@ -94,9 +94,10 @@ TEST_F(Load, OverloadAnswersBusyAtOnce)
   together(12,
            [&](int)
            {
-             CheckStates first = requestOf(1);  // roscpp may lose the first call of a connection: persistent_call.h
-             callPersistently(node.service("check_states"), first);
              CheckStates call = requestOf(200000);
+             // roscpp may lose the first call of a connection (persistent_call.h). So a small request opens it.
+             CheckStates first = requestOf(1);
+             callPersistently(node.service("check_states"), first);
              if (!callPersistently(node.service("check_states"), call))
                ++other;
              else if (call.response.success)

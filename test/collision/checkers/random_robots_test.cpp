@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <map>
 #include <random>
@@ -488,6 +489,8 @@ TEST_P(RandomRobots, AreAsFreeAroundAStateOnTheGpuAsOnTheCpu)
 /// Making the proofs takes seconds a robot under sanitizers, so this suite has fewer seeds.
 class ProofsOfRandomRobots : public RandomRobots
 {
+ public:
+  ProofsOfRandomRobots() { setenv("GPU_PLANNING_SCENE_PROOF_CACHE", "off", 1); }
 };
 
 TEST_P(ProofsOfRandomRobots, GiveTheVerdictsOfTheExactChecker)

@@ -37,7 +37,10 @@ class CacheOfATest
   }
   ~CacheOfATest()
   {
-    setenv("XDG_CACHE_HOME", before_.c_str(), 1);
+    if (before_.empty())
+      unsetenv("XDG_CACHE_HOME");
+    else
+      setenv("XDG_CACHE_HOME", before_.c_str(), 1);
     fs::remove_all(home_);
   }
   CacheOfATest(const CacheOfATest&) = delete;

@@ -48,7 +48,7 @@ inline ProvenScene prove(const TestScene& scene)
   return made;
 }
 
-/// A scene by its name, with its proofs. They are made once per process.
+/// A scene by its name, with its proofs. They are made or loaded once per process.
 inline const ProvenScene& provenScene(const std::string& name)
 {
   static std::map<std::string, ProvenScene> kept;
