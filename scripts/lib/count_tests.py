@@ -6,6 +6,7 @@ usage: count_tests.py JUNIT_FILE REPORTS MORE_FAILED
 REPORTS is the folder of GoogleTest's XML reports. A report has the name of a ctest test that runs one suite. The cases
 of the report are counted instead of the suite. MORE_FAILED is added to the number of failed tests.
 """
+import collections
 import pathlib
 import sys
 import xml.etree.ElementTree
@@ -42,7 +43,11 @@ def of_test(case):
 def main(junit, reports, more_failed):
     count = dict.fromkeys(OUTCOMES, 0)
     count["failed"] += int(more_failed)
-    for case in xml.etree.ElementTree.parse(junit).getroot().iter("testcase"):
+    cases = list(xml.etree.ElementTree.parse(junit).getroot().iter("testcase"))
+    for name, times in collections.Counter(case.get("name") for case in cases).items():
+        if times > 1:
+            sys.exit(f"two programs have tests named {name}: rename one suite, because its report replaces the other one")
+    for case in cases:
         report = pathlib.Path(reports) / (case.get("name").replace("/", ".") + ".xml")
         for outcome in of_suite(report, of_test(case) == "passed") if report.exists() else [of_test(case)]:
             count[outcome] += 1

@@ -70,7 +70,7 @@ TEST(OrientedBoxTree, EachBoxEnclosesItsTriangles)
 }
 
 // Two boxes whose axes differ by rounding errors have no common perpendicular, only noise.
-TEST(OrientedBoxes, EpsilonKeepsParallelBoxesTogether)
+TEST(OrientedBoxesOfTrees, EpsilonKeepsParallelBoxesTogether)
 {
   Matrix3d rotation = Matrix3d::Identity();
   rotation(1, 0) = 1e-17;
@@ -81,7 +81,7 @@ TEST(OrientedBoxes, EpsilonKeepsParallelBoxesTogether)
   EXPECT_TRUE(boxesApart(rotation, Vector3d(1.5, 0.0, 0.21), half, half, kRapidEpsilon));
 }
 
-TEST(OrientedBoxes, AnyOfFifteenAxesSeparates)
+TEST(OrientedBoxesOfTrees, AnyOfFifteenAxesSeparates)
 {
   // The edges of two rods cross each other. Only the product of their directions separates them.
   Matrix3d rotation;

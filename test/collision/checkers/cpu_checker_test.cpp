@@ -128,7 +128,7 @@ TEST_F(CpuCheckerTest, AGroupLeavesOutWhatItDoesNotMove)
   EXPECT_LT(checker_.report("head").world_pairs, checker_.report().world_pairs);
 }
 
-TEST(OpenChecker, TheCpuTakesTheOptions)
+TEST(OpenCpuChecker, TakesTheOptions)
 {
   BatchCheckerOptions options;
   options.device = "cpu";
