@@ -46,7 +46,7 @@ def main(junit, reports, more_failed):
     cases = list(xml.etree.ElementTree.parse(junit).getroot().iter("testcase"))
     for name, times in collections.Counter(case.get("name") for case in cases).items():
         if times > 1:
-            sys.exit(f"two programs have tests named {name}: rename one suite, because its report replaces the other one")
+            sys.exit(f"two programs have tests named {name}: rename one suite, because one report replaces the other")
     for case in cases:
         report = pathlib.Path(reports) / (case.get("name").replace("/", ".") + ".xml")
         for outcome in of_suite(report, of_test(case) == "passed") if report.exists() else [of_test(case)]:
